@@ -1,0 +1,30 @@
+// The input and output value of every public call: a polygon mesh with one UV per face corner.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace atlas_refine {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+
+/// A polygon mesh and its UV map. Face f owns the corners face_offsets[f] .. face_offsets[f + 1] - 1.
+///
+/// UVs are given by value at every corner, as file formats and Blender store them. Two faces belong to one chart where they
+/// share an edge and hold equal UVs at both of its ends; vertices of equal position count as one vertex there, so meshes
+/// whose vertices are doubled for the sake of normals keep their charts whole.
+struct Atlas {
+  std::string name;                  ///< names the object in messages; may be empty
+  std::vector<Vec3> positions;       ///< one per vertex, model units
+  std::vector<int> face_offsets;     ///< faces + 1 entries, starting with 0; every face has at least 3 corners
+  std::vector<int> corner_vertices;  ///< one per corner: index into positions
+  std::vector<Vec2> corner_uvs;      ///< one per corner, UV units
+
+  int face_count() const { return face_offsets.empty() ? 0 : static_cast<int>(face_offsets.size()) - 1; }
+  int corner_count() const { return static_cast<int>(corner_vertices.size()); }
+};
+
+}  // namespace atlas_refine

@@ -1,0 +1,40 @@
+// Input to charts (section 3, "Inputs"): UV connectivity, mirrored charts turned, flips refused or counted.
+#pragma once
+
+#include <vector>
+
+#include "geometry/chart.h"
+
+namespace atlas_refine {
+
+/// Where a corner of the input went.
+struct CornerRef {
+  int chart;
+  int vertex;  ///< local index into Chart::uvs
+};
+
+struct FaceDefect {
+  int chart;
+  int face;
+  bool zero_area;  ///< else: flipped against the rest of its chart, or its outline crosses itself
+};
+
+/// The input atlas as charts. Chart UVs are the input's values, except that mirrored charts are turned over (u negated).
+struct ChartSet {
+  std::vector<Chart> charts;          ///< ordered by their smallest input face
+  std::vector<CornerRef> corners;     ///< one per input corner
+  std::vector<bool> mirrored;         ///< one per chart
+  std::vector<FaceDefect> defects;    ///< faces whose triangles are not all positive; empty for a usable atlas
+};
+
+/// Splits an atlas by UV connectivity: faces that share an edge (by vertex, or by equal positions) with equal UVs at both
+/// ends belong together. Faces of opposite winding are joined too, so that no seam arises where the UVs have none. Edges
+/// with more than two such faces are seams. Polygons are triangulated here: as a fan where that is positive in the UV plane and
+/// consistent in space, else by a triangulation of the UV polygon.
+/// Throws RefineError(BadInput) for arrays that do not fit together, indices out of range, NaN or no faces.
+ChartSet split_charts(const Atlas& atlas);
+
+/// Throws RefineError(BadInput) that names chart and face of the first defect, and how many there are.
+void require_no_defects(const Atlas& atlas, const ChartSet& set);
+
+}  // namespace atlas_refine

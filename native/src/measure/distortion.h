@@ -1,0 +1,35 @@
+// Distortion of charts against the surface: E_d (eq. 9), E_2, stretch.
+#pragma once
+
+#include <vector>
+
+#include "geometry/chart.h"
+
+namespace atlas_refine {
+
+/// Area-weighted sums over triangles: E_d of the UVs scaled by t is (t^2 * dirichlet + inverse / t^2) / (4 * area).
+struct DirichletSums {
+  double dirichlet = 0;  ///< sum of area * |J|_F^2
+  double inverse = 0;    ///< sum of area * |J^-1|_F^2
+  double area = 0;
+
+  DirichletSums& operator+=(const DirichletSums& other);
+  double best_scale() const;    ///< t that minimises the energy
+  double best_energy() const;   ///< the energy at that t
+};
+
+DirichletSums dirichlet_sums(const Chart& chart);
+DirichletSums dirichlet_sums(const std::vector<Chart>& charts);
+
+/// max(s1, 1 / s2) of every triangle's Jacobian (rest -> UV) times `scale`.
+std::vector<double> triangle_stretch(const Chart& chart, double scale);
+
+/// Sum of UV triangle areas.
+double uv_area(const Chart& chart);
+double uv_area(const std::vector<Chart>& charts);
+
+Box uv_box(const std::vector<Chart>& charts);
+/// The smallest box of `aspect` (width / height) that holds `box`, same min corner; `box` itself where aspect is 0.
+Box box_of_aspect(const Box& box, double aspect);
+
+}  // namespace atlas_refine

@@ -1,0 +1,40 @@
+// Deterministic parallel loops on plain threads.
+#include "support/parallel.h"
+
+#include <algorithm>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace atlas_refine {
+
+int resolve_threads(int requested) {
+  if (requested > 0) return requested;
+  return std::max(1u, std::thread::hardware_concurrency());
+}
+
+void parallel_ranges(int count, int threads, int grain, const std::function<void(int, int)>& body) {
+  const int parts = std::min(threads, std::max(1, count / std::max(1, grain)));
+  if (parts <= 1) {
+    if (count > 0) body(0, count);
+    return;
+  }
+  std::vector<std::exception_ptr> errors(parts);
+  const auto run = [&](int part) {
+    try {
+      body(static_cast<int>(static_cast<long long>(count) * part / parts), static_cast<int>(static_cast<long long>(count) * (part + 1) / parts));
+    } catch (...) {
+      errors[part] = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (int part = 1; part < parts; ++part) workers.emplace_back(run, part);
+    run(0);
+  }
+  for (const auto& error : errors) {
+    if (error) std::rethrow_exception(error);
+  }
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,16 @@
+// Deterministic parallel loops: every index writes its own slot, so one thread gives the same bits as many.
+#pragma once
+
+#include <functional>
+
+namespace atlas_refine {
+
+/// Number of threads to use for a request, 0 = what the machine has.
+int resolve_threads(int requested);
+
+/// Calls body(begin, end) on disjoint ranges that cover [0, count); returns when all are done. The ranges depend on the
+/// number of threads, so the body must treat its indices independently. The first exception is rethrown.
+/// Runs in the calling thread where `threads` is 1 or `count` is below `grain`.
+void parallel_ranges(int count, int threads, int grain, const std::function<void(int, int)>& body);
+
+}  // namespace atlas_refine
