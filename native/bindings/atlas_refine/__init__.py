@@ -1,0 +1,39 @@
+"""Atlas Refine: brings a UV atlas to a packing efficiency bound.
+
+    result = atlas_refine.refine(positions, face_offsets, corner_vertices, corner_uvs, pe_bound=0.85)
+    result.corner_uvs      # (C, 2) float64, replaces the input's
+
+Arrays in and out are NumPy's; help(atlas_refine.refine) lists shapes, units, options and errors.
+"""
+
+from ._atlas_refine import (
+    AtlasRefineError,
+    ChartReport,
+    Gap,
+    Job,
+    Measures,
+    Progress,
+    RefineResult,
+    Validity,
+    __version__,
+    measure,
+    refine,
+    start,
+    validate,
+)
+
+__all__ = [
+    "AtlasRefineError",
+    "ChartReport",
+    "Gap",
+    "Job",
+    "Measures",
+    "Progress",
+    "RefineResult",
+    "Validity",
+    "__version__",
+    "measure",
+    "refine",
+    "start",
+    "validate",
+]

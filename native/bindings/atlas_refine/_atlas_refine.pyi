@@ -1,0 +1,189 @@
+"""Types of the native module. "Gap" is a smallest distance between boundaries; E_d is 1 where nothing is distorted."""
+
+from collections.abc import Callable
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+class AtlasRefineError(RuntimeError):
+    code: Literal["bad_option", "bad_input", "bound_not_reached", "not_certified", "cancelled"]
+    stage: str
+    chart: int  # 0-based, -1 where none applies
+    face: int  # 0-based input face, -1 where none applies
+
+class Progress:
+    @property
+    def stage(self) -> str: ...
+    @property
+    def fraction(self) -> float: ...  # of the whole call, in [0, 1], never decreasing
+    @property
+    def pe(self) -> float: ...  # packing efficiency of the present state, 0 where unknown
+    def as_dict(self) -> dict[str, Any]: ...
+
+class Gap:
+    @property
+    def value(self) -> float: ...  # fraction of the unit
+    @property
+    def unit(self) -> Literal["diagonal", "long_side"]: ...
+    def as_dict(self) -> dict[str, Any]: ...
+
+class Measures:
+    @property
+    def pe(self) -> float: ...  # sum of UV triangle areas / area of the UV bounding box
+    @property
+    def pe_fixed_aspect(self) -> float: ...  # the same against the smallest box of the asked aspect
+    @property
+    def box_width(self) -> float: ...  # UV units
+    @property
+    def box_height(self) -> float: ...  # UV units
+    @property
+    def boundary_length(self) -> float: ...  # 3D length of all seams / diagonal of the 3D bounding box
+    @property
+    def seam_edges(self) -> int: ...
+    @property
+    def chart_count(self) -> int: ...
+    @property
+    def smallest_chart(self) -> float: ...  # its area / total area, on the surface
+    @property
+    def small_charts(self) -> int: ...  # charts under 3 % of the area
+    @property
+    def distortion(self) -> float: ...  # E_d under the one global scale that minimises it
+    @property
+    def distortion_to_input(self) -> float: ...  # E_2: the same energy from the input's UVs to these
+    @property
+    def stretch_99(self) -> float: ...  # area-weighted 99th percentile of max(s1, 1 / s2)
+    @property
+    def stretch_max(self) -> float: ...
+    @property
+    def gap_between(self) -> float: ...  # between two charts / box diagonal; inf with one chart
+    @property
+    def gap_within(self) -> float: ...  # within one chart, far apart along its border / box diagonal
+    def as_dict(self) -> dict[str, Any]: ...
+
+class Validity:
+    @property
+    def valid(self) -> bool: ...
+    @property
+    def problem(self) -> str: ...  # empty where valid
+    @property
+    def chart(self) -> int: ...
+    @property
+    def face(self) -> int: ...
+    @property
+    def flipped_faces(self) -> int: ...
+    @property
+    def mirrored_charts(self) -> int: ...
+    @property
+    def crossings(self) -> int: ...  # pairs of boundary edges that cross or touch
+    def as_dict(self) -> dict[str, Any]: ...
+
+class ChartReport:
+    @property
+    def faces(self) -> int: ...
+    @property
+    def mirrored(self) -> bool: ...  # was turned over
+    @property
+    def re_embedded(self) -> bool: ...  # overlapped itself and was embedded anew
+    @property
+    def distortion_before(self) -> float: ...  # E_d of the chart alone at its own best scale
+    @property
+    def distortion_after(self) -> float: ...
+    @property
+    def stretch_max(self) -> float: ...  # after, at the atlas' global scale
+    def as_dict(self) -> dict[str, Any]: ...
+
+class RefineResult:
+    @property
+    def corner_uvs(self) -> NDArray[np.float64]: ...  # (C, 2), a new array each time
+    @property
+    def intervention(self) -> Literal["unchanged", "moved", "squeezed"]: ...
+    @property
+    def bound_met(self) -> bool: ...  # False only with best_effort
+    @property
+    def before(self) -> Measures: ...
+    @property
+    def after(self) -> Measures: ...
+    @property
+    def gap(self) -> Gap: ...  # guaranteed in the result
+    @property
+    def price(self) -> float: ...  # marginal E_d for one unit of log PE at the bound
+    @property
+    def iterations(self) -> int: ...  # Newton iterations, all stages
+    @property
+    def charts(self) -> list[ChartReport]: ...
+    @property
+    def repairs(self) -> list[str]: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    @property
+    def timings(self) -> dict[str, float]: ...  # seconds per stage
+    def as_dict(self) -> dict[str, Any]: ...
+
+class Job:
+    @property
+    def done(self) -> bool: ...
+    @property
+    def progress(self) -> Progress: ...
+    def cancel(self) -> None: ...
+    def wait(self, timeout: float | None = None) -> bool: ...
+    def result(self) -> RefineResult: ...
+
+def refine(
+    positions: ArrayLike,
+    face_offsets: ArrayLike,
+    corner_vertices: ArrayLike,
+    corner_uvs: ArrayLike,
+    *,
+    pe_bound: float = 0.8,
+    seams: Literal["none"] = "none",
+    box_aspect: float = 0.0,
+    gap: float | None = None,
+    gap_unit: Literal["diagonal", "long_side"] = "diagonal",
+    max_distortion: float | None = None,
+    best_effort: bool = False,
+    density: Literal["equal", "keep"] = "equal",
+    stored: Literal["double", "float32"] = "double",
+    seed: int = 1,
+    threads: int = 0,
+    progress: Callable[[Progress], bool | None] | None = None,
+    name: str = "",
+) -> RefineResult: ...
+def start(
+    positions: ArrayLike,
+    face_offsets: ArrayLike,
+    corner_vertices: ArrayLike,
+    corner_uvs: ArrayLike,
+    *,
+    pe_bound: float = 0.8,
+    seams: Literal["none"] = "none",
+    box_aspect: float = 0.0,
+    gap: float | None = None,
+    gap_unit: Literal["diagonal", "long_side"] = "diagonal",
+    max_distortion: float | None = None,
+    best_effort: bool = False,
+    density: Literal["equal", "keep"] = "equal",
+    stored: Literal["double", "float32"] = "double",
+    seed: int = 1,
+    threads: int = 0,
+    name: str = "",
+) -> Job: ...
+def measure(
+    positions: ArrayLike,
+    face_offsets: ArrayLike,
+    corner_vertices: ArrayLike,
+    corner_uvs: ArrayLike,
+    *,
+    box_aspect: float = 0.0,
+    name: str = "",
+) -> Measures: ...
+def validate(
+    positions: ArrayLike,
+    face_offsets: ArrayLike,
+    corner_vertices: ArrayLike,
+    corner_uvs: ArrayLike,
+    *,
+    name: str = "",
+) -> Validity: ...

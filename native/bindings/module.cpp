@@ -1,0 +1,148 @@
+// The Python module: refine(), start(), measure() and validate() on NumPy arrays.
+#include <pybind11/pybind11.h>
+
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "arrays.h"
+#include "atlas_refine/refine.h"
+#include "job.h"
+#include "options.h"
+#include "results.h"
+
+namespace py = pybind11;
+
+namespace atlas_refine::python {
+namespace {
+
+const std::string kRefineKeywords =
+    "pe_bound seams box_aspect gap gap_unit max_distortion best_effort density stored seed threads name";
+
+constexpr const char* kArraysDoc = R"(
+
+positions        (V, 3) float64, model units
+face_offsets     (F + 1,) integers, from 0: face f owns corners face_offsets[f] .. face_offsets[f + 1] - 1
+corner_vertices  (C,) integers, index into positions
+corner_uvs       (C, 2) float64, UV units; equal values at both ends of a shared edge join two faces to one chart
+)";
+
+constexpr const char* kRefineOptionsDoc = R"(
+pe_bound         packing efficiency to reach, in (0, 1); default 0.8
+seams            "none": charts bend, no seam is added
+box_aspect       width / height of the box; 0 (default) = free, 1 = square
+gap              smallest distance between charts as a fraction of gap_unit, hard; None (default) = automatic: 0.0025 of the
+                 diagonal, reduced only as far as the bound needs
+gap_unit         "diagonal" of the box (default) or its "long_side" (N texels of a texture of S: N / S)
+max_distortion   largest E_d allowed (1 = isometric), or None
+best_effort      return the best valid atlas where the bound is not reached (bound_met says so); default False
+density          "equal" (default): one scale for all charts; "keep": each chart keeps its own
+stored           "double" (default) or "float32": the format you will store; the certificate holds for it
+seed             default 1; the same seed gives the same bits on any number of threads
+threads          0 (default) = as many as the machine has
+name             names the object in messages
+)";
+
+/// Calls back into Python with the GIL held. An exception there stops the run; check() raises it afterwards.
+class ProgressCallback {
+ public:
+  explicit ProgressCallback(py::object function) : function_(std::move(function)) {}
+
+  ProgressFn adapter() {
+    return [this](const Progress& progress) {
+      const py::gil_scoped_acquire gil;
+      try {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();  // Ctrl-C stops a run without a callback too
+        return function_.is_none() || !function_(progress).is(py::bool_(false));
+      } catch (...) {
+        raised_ = std::current_exception();
+        return false;
+      }
+    };
+  }
+
+  void check() const {
+    if (raised_) std::rethrow_exception(raised_);
+  }
+
+ private:
+  py::object function_;
+  std::exception_ptr raised_;
+};
+
+RefineResult call_refine(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
+                         const py::object& corner_uvs, const py::kwargs& kwargs) {
+  const Keywords keywords = read_keywords(kwargs, "refine", kRefineKeywords + " progress");
+  const Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  ProgressCallback callback(keywords.progress);
+  std::optional<RefineResult> result;
+  try {
+    const py::gil_scoped_release release;
+    result = refine(atlas, keywords.options, callback.adapter());
+  } catch (const RefineError&) {
+    callback.check();
+    throw;
+  }
+  callback.check();
+  return std::move(*result);
+}
+
+std::unique_ptr<Job> start(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
+                           const py::object& corner_uvs, const py::kwargs& kwargs) {
+  const Keywords keywords = read_keywords(kwargs, "start", kRefineKeywords);
+  return std::make_unique<Job>(to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name), keywords.options);
+}
+
+Measures call_measure(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
+                      const py::object& corner_uvs, const py::kwargs& kwargs) {
+  const Keywords keywords = read_keywords(kwargs, "measure", "box_aspect name");
+  const Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  const py::gil_scoped_release release;
+  return measure(atlas, keywords.options.box_aspect);
+}
+
+Validity call_validate(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
+                       const py::object& corner_uvs, const py::kwargs& kwargs) {
+  const Keywords keywords = read_keywords(kwargs, "validate", "name");
+  const Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  const py::gil_scoped_release release;
+  return validate(atlas);
+}
+
+template <typename Function>
+void define(py::module_& module, const char* name, Function function, const std::string& doc) {
+  module.def(name, function, py::arg("positions"), py::arg("face_offsets"), py::arg("corner_vertices"), py::arg("corner_uvs"),
+             doc.c_str());
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_atlas_refine, module) {
+  py::options options;
+  options.disable_function_signatures();  // the type stub has the readable ones
+  module.doc() = "Atlas Refine: brings a UV atlas to a packing efficiency bound.";
+  module.attr("__version__") = version();
+  bind_error(module);
+  bind_results(module);
+  bind_job(module);
+
+  const std::string arrays = kArraysDoc;
+  const std::string raises = "\nRaises AtlasRefineError (code, stage, chart, face).";
+  define(
+      module, "refine", &call_refine,
+      "Brings an atlas to a packing efficiency bound and returns a RefineResult; the arrays are left alone." + arrays +
+          kRefineOptionsDoc +
+          "progress         called with a Progress several times a second; returning False cancels, what it raises comes out\n" +
+          raises);
+  define(module, "start", &start, "refine() in the background: returns a Job at once." + arrays + kRefineOptionsDoc + raises);
+  define(module, "measure", &call_measure,
+         "Measures an atlas as it is.\n\nKeywords box_aspect (width / height for pe_fixed_aspect, 0 = free) and name." + arrays +
+             raises);
+  define(module, "validate", &call_validate,
+         "Exact test on the values as given: every UV triangle positive, no boundaries crossing or touching.\n\nKeyword name." +
+             arrays + raises);
+}
+
+}  // namespace atlas_refine::python

@@ -1,0 +1,166 @@
+// The library's results and its error as Python classes.
+#include "results.h"
+
+#include <pybind11/stl.h>
+
+#include <exception>
+#include <sstream>
+#include <utility>
+
+#include "arrays.h"
+#include "atlas_refine/refine.h"
+
+namespace py = pybind11;
+
+namespace atlas_refine::python {
+namespace {
+
+constexpr const char* kErrorDoc =
+    R"(Why a call failed, in one line.
+
+code   "bad_option", "bad_input", "bound_not_reached", "not_certified" or "cancelled"
+stage  the stage that failed, for example "input" or "squeeze"
+chart  0-based index of the chart, -1 where none applies
+face   0-based index of the input face, -1 where none applies)";
+
+PyObject* g_error_type = nullptr;
+
+void set_error(const RefineError& error) {
+  py::object instance = py::reinterpret_borrow<py::object>(g_error_type)(error.what());
+  instance.attr("code") = to_string(error.code());
+  instance.attr("stage") = error.stage();
+  instance.attr("chart") = error.chart();
+  instance.attr("face") = error.face();
+  PyErr_SetObject(g_error_type, instance.ptr());
+}
+
+/// "Name(field=value, ...)" for every property that the class has.
+py::str describe(const py::object& self) {
+  const py::object type = py::type::of(self);
+  std::ostringstream text;
+  text << py::str(type.attr("__name__")).cast<std::string>() << "(";
+  const char* separator = "";
+  for (const auto& field : type.attr("_fields")) {
+    text << separator << field.cast<std::string>() << "=" << py::repr(self.attr(field)).cast<std::string>();
+    separator = ", ";
+  }
+  text << ")";
+  return py::str(text.str());
+}
+
+py::dict as_dict(const py::object& self) {
+  py::dict fields;
+  for (const auto& field : py::type::of(self).attr("_fields")) fields[field] = self.attr(field);
+  return fields;
+}
+
+/// A read-only value class whose fields are listed once; repr() and as_dict() follow from the list.
+template <typename Value>
+class ValueClass {
+ public:
+  ValueClass(py::module_& module, const char* name, const char* doc) : class_(module, name, py::module_local(), doc) {
+    class_.def("__repr__", &describe).def("as_dict", &as_dict, "All fields in a new dict.");
+  }
+  ~ValueClass() { class_.attr("_fields") = py::tuple(fields_); }
+
+  template <typename Member>
+  ValueClass& field(const char* name, Member member) {
+    fields_.append(name);
+    class_.def_readonly(name, member);
+    return *this;
+  }
+
+  template <typename Getter>
+  ValueClass& property(const char* name, Getter getter) {
+    fields_.append(name);
+    class_.def_property_readonly(name, getter);
+    return *this;
+  }
+
+ private:
+  py::class_<Value> class_;
+  py::list fields_;
+};
+
+void bind_measures(py::module_& module) {
+  ValueClass<Measures>(module, "Measures", "Figures of one atlas; each field is explained in the package's type stub.")
+      .field("pe", &Measures::pe)
+      .field("pe_fixed_aspect", &Measures::pe_fixed_aspect)
+      .field("box_width", &Measures::box_width)
+      .field("box_height", &Measures::box_height)
+      .field("boundary_length", &Measures::boundary_length)
+      .field("seam_edges", &Measures::seam_edges)
+      .field("chart_count", &Measures::chart_count)
+      .field("smallest_chart", &Measures::smallest_chart)
+      .field("small_charts", &Measures::small_charts)
+      .field("distortion", &Measures::distortion)
+      .field("distortion_to_input", &Measures::distortion_to_input)
+      .field("stretch_99", &Measures::stretch_99)
+      .field("stretch_max", &Measures::stretch_max)
+      .field("gap_between", &Measures::gap_between)
+      .field("gap_within", &Measures::gap_within);
+  ValueClass<Validity>(module, "Validity", "Whether an atlas is valid, and the first problem if it is not.")
+      .property("valid", &Validity::valid)
+      .field("problem", &Validity::problem)
+      .field("chart", &Validity::chart)
+      .field("face", &Validity::face)
+      .field("flipped_faces", &Validity::flipped_faces)
+      .field("mirrored_charts", &Validity::mirrored_charts)
+      .field("crossings", &Validity::crossings);
+}
+
+void bind_refine_result(py::module_& module) {
+  ValueClass<RefineResult>(module, "RefineResult", "A refined atlas with its certificate's figures.")
+      .property("corner_uvs", [](const RefineResult& r) { return to_array(r.corner_uvs); })
+      .property("intervention", [](const RefineResult& r) { return to_string(r.intervention); })
+      .field("bound_met", &RefineResult::bound_met)
+      .field("before", &RefineResult::before)
+      .field("after", &RefineResult::after)
+      .field("gap", &RefineResult::gap)
+      .field("price", &RefineResult::price)
+      .field("iterations", &RefineResult::iterations)
+      .field("charts", &RefineResult::charts)
+      .field("repairs", &RefineResult::repairs)
+      .field("warnings", &RefineResult::warnings)
+      .property("timings", [](const RefineResult& r) {
+        py::dict seconds;
+        for (const StageTime& time : r.timings) seconds[py::str(time.stage)] = time.seconds;
+        return seconds;
+      });
+}
+
+}  // namespace
+
+void bind_error(py::module_& module) {
+  g_error_type = PyErr_NewExceptionWithDoc("atlas_refine.AtlasRefineError", kErrorDoc, PyExc_RuntimeError, nullptr);
+  if (g_error_type == nullptr) throw py::error_already_set();
+  module.attr("AtlasRefineError") = py::reinterpret_borrow<py::object>(g_error_type);
+  py::register_local_exception_translator([](std::exception_ptr error) {
+    try {
+      if (error) std::rethrow_exception(error);
+    } catch (const RefineError& refine_error) {
+      set_error(refine_error);
+    }
+  });
+}
+
+void bind_results(py::module_& module) {
+  ValueClass<Progress>(module, "Progress", "Where a running call is: stage, fraction of the whole in [0, 1], present PE or 0.")
+      .field("stage", &Progress::stage)
+      .field("fraction", &Progress::fraction)
+      .field("pe", &Progress::pe);
+  ValueClass<Gap>(module, "Gap", "The smallest distance between two charts that is guaranteed.")
+      .field("value", &Gap::value)
+      .property("unit", [](const Gap& gap) { return gap.unit == Gap::Unit::LongSide ? "long_side" : "diagonal"; });
+  ValueClass<ChartReport>(module, "ChartReport", "What one chart went through.")
+      .field("faces", &ChartReport::faces)
+      .field("mirrored", &ChartReport::mirrored)
+      .field("re_embedded", &ChartReport::re_embedded)
+      .field("distortion_before", &ChartReport::distortion_before)
+      .field("distortion_after", &ChartReport::distortion_after)
+      .field("stretch_max", &ChartReport::stretch_max);
+  bind_measures(module);
+  bind_refine_result(module);
+}
+
+}  // namespace atlas_refine::python
