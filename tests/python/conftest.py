@@ -1,0 +1,8 @@
+"""Finds the package in build/python, or where ATLAS_REFINE_PYTHON says."""
+
+import os
+import pathlib
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, os.environ.get("ATLAS_REFINE_PYTHON", str(ROOT / "build" / "python")))

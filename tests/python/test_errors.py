@@ -1,0 +1,128 @@
+"""Bad arguments: one exception type for the data, TypeError for what is no argument at all, never a crash."""
+
+import atlas_refine
+import numpy as np
+import pytest
+import shapes
+
+
+def refuse(arrays, **options):
+    with pytest.raises(atlas_refine.AtlasRefineError) as caught:
+        atlas_refine.refine(*arrays, **options)
+    assert "\n" not in str(caught.value)
+    return caught.value
+
+
+def changed(index, change):
+    arrays = [array.copy() for array in shapes.tight()]
+    arrays[index] = change(arrays[index])
+    return arrays
+
+
+def put(index, value):
+    def change(array):
+        array[index] = value
+        return array
+
+    return change
+
+
+@pytest.mark.parametrize("pe_bound", [0, 1, 1.2, -0.5, float("nan")])
+def test_a_bound_out_of_range(pe_bound):
+    error = refuse(shapes.tight(), pe_bound=pe_bound)
+    assert error.code == "bad_option"
+    assert (error.chart, error.face) == (-1, -1)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"gap": -0.1},
+        {"gap": 0.5},
+        {"gap": float("nan")},
+        {"max_distortion": 0.5},
+        {"box_aspect": -1.0},
+        {"box_aspect": float("inf")},
+        {"threads": -1},
+        {"density": "even"},
+        {"stored": "half"},
+        {"seams": "many"},
+        {"gap": 0.01, "gap_unit": "px"},
+    ],
+)
+def test_an_option_out_of_range_is_named(options):
+    error = refuse(shapes.tight(), **options)
+    assert error.code == "bad_option"
+    assert next(iter(options)).replace("_", " ").split()[0] in str(error).lower()
+
+
+@pytest.mark.parametrize(
+    ("arrays", "word"),
+    [
+        (changed(0, lambda a: a[:, :2]), "positions"),
+        (changed(0, lambda a: a.astype(str)), "positions"),
+        (changed(1, lambda a: a.astype(float)), "face_offsets"),
+        (changed(2, lambda a: a.reshape(-1, 4)), "corner_vertices"),
+        (changed(2, lambda a: a + 2**40), "corner_vertices"),
+        (changed(3, lambda a: a.ravel()), "corner_uvs"),
+        (changed(3, lambda a: None), "corner_uvs"),
+    ],
+)
+def test_a_wrong_shape_or_type_names_the_array(arrays, word):
+    error = refuse(arrays)
+    assert error.code == "bad_input"
+    assert word in str(error)
+
+
+@pytest.mark.parametrize(
+    "arrays",
+    [
+        changed(0, put((3, 1), np.nan)),
+        changed(0, put((3, 1), np.inf)),
+        changed(1, put(-1, 10**6)),
+        changed(1, put(1, 2)),
+        changed(1, put(1, -4)),
+        changed(1, lambda a: a[:0]),
+        changed(1, lambda a: a[:1]),
+        changed(2, put(5, 10**6)),
+        changed(2, put(5, -1)),
+        changed(3, put((7, 0), np.nan)),
+        changed(3, lambda a: a[:-1]),
+        [np.zeros((0, 3)), np.zeros(1, int), np.zeros(0, int), np.zeros((0, 2))],
+    ],
+)
+@pytest.mark.parametrize("function", [atlas_refine.refine, atlas_refine.measure, atlas_refine.validate])
+def test_arrays_that_do_not_fit_together(arrays, function):
+    with pytest.raises(atlas_refine.AtlasRefineError) as caught:
+        function(*arrays)
+    assert caught.value.code == "bad_input"
+
+
+def test_the_face_is_named():
+    error = refuse(changed(3, put((4 * 9 + 2, 1), np.nan)))
+    assert error.face == 9
+    assert error.stage
+
+
+def test_a_flipped_face_is_refused_with_its_chart_and_face():
+    positions, face_offsets, corner_vertices, corner_uvs = shapes.loose()
+    vertex = corner_vertices[4 * (12 * 4 + 14) + 2]  # inside the second chart
+    corner_uvs[corner_vertices == vertex] += [3.0, 0.0]
+    error = refuse([positions, face_offsets, corner_vertices, corner_uvs])
+    assert error.code == "bad_input"
+    assert error.chart == 1
+    assert error.face >= 12 * 4
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"bound": 0.8}, {"pe_bound": "high"}, {"pe_bound": None}, {"seed": -1}, {"progress": 3}, {"threads": 1.5}, {"name": 1}],
+)
+def test_what_is_no_argument_at_all_is_a_type_error(options):
+    with pytest.raises(TypeError, match=next(iter(options))):
+        atlas_refine.refine(*shapes.tight(), **options)
+
+
+def test_measure_takes_no_refine_options():
+    with pytest.raises(TypeError, match="pe_bound"):
+        atlas_refine.measure(*shapes.tight(), pe_bound=0.8)

@@ -1,0 +1,49 @@
+"""start(): the same call in the background."""
+
+import subprocess
+import sys
+import time
+
+import atlas_refine
+import pytest
+import shapes
+
+
+def test_a_job_returns_what_refine_returns():
+    arrays = shapes.loose()
+    job = atlas_refine.start(*arrays, pe_bound=0.8)
+    result = job.result()
+    assert job.done
+    assert job.progress.fraction == 1.0
+    assert result.corner_uvs.tobytes() == atlas_refine.refine(*arrays, pe_bound=0.8).corner_uvs.tobytes()
+
+
+def test_a_job_raises_what_refine_raises():
+    job = atlas_refine.start(*shapes.tight(), pe_bound=1.2)
+    assert job.wait(5.0)
+    with pytest.raises(atlas_refine.AtlasRefineError) as caught:
+        job.result()
+    assert caught.value.code == "bad_option"
+
+
+def test_cancel_ends_a_long_job_within_half_a_second():
+    arrays = shapes.join(*(shapes.grid(60, 12, origin=(0.0, 90.0 * i), bend=5.0) for i in range(6)))
+    job = atlas_refine.start(*arrays, pe_bound=0.95)
+    time.sleep(0.2)
+    assert not job.done
+    began = time.monotonic()
+    job.cancel()
+    with pytest.raises(atlas_refine.AtlasRefineError) as caught:
+        job.result()
+    assert caught.value.code == "cancelled"
+    assert time.monotonic() - began < 0.5
+
+
+def test_a_job_that_nobody_waits_for_stops_with_its_object_and_with_the_process():
+    began = time.monotonic()
+    job = atlas_refine.start(*shapes.join(*(shapes.grid(60, 12, origin=(0.0, 90.0 * i), bend=5.0) for i in range(6))), pe_bound=0.95)
+    del job
+    assert time.monotonic() - began < 2.0
+
+    code = "import conftest, atlas_refine, shapes; job = atlas_refine.start(*shapes.loose(), pe_bound=0.95)"
+    subprocess.run([sys.executable, "-c", code], cwd=sys.path[0], check=True, timeout=20)
