@@ -1,0 +1,161 @@
+// What the program tells: a JSON report, a summary for people, the table of `measure`.
+#include "report.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace atlas_refine::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+std::string dump(const Json& json) {
+  // File names need not be UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json to_json(const Measures& m) {
+  return {{"pe", number(m.pe)},
+          {"pe_fixed_aspect", number(m.pe_fixed_aspect)},
+          {"box_width", number(m.box_width)},
+          {"box_height", number(m.box_height)},
+          {"boundary_length", number(m.boundary_length)},
+          {"seam_edges", m.seam_edges},
+          {"chart_count", m.chart_count},
+          {"smallest_chart", number(m.smallest_chart)},
+          {"small_charts", m.small_charts},
+          {"distortion", number(m.distortion)},
+          {"distortion_to_input", number(m.distortion_to_input)},
+          {"stretch_99", number(m.stretch_99)},
+          {"stretch_max", number(m.stretch_max)},
+          {"gap_between", number(m.gap_between)},
+          {"gap_within", number(m.gap_within)}};
+}
+
+Json to_json(const Gap& gap) {
+  return {{"value", number(gap.value)}, {"unit", gap.unit == Gap::Unit::BoxDiagonal ? "box_diagonal" : "long_side"}};
+}
+
+Json to_json(const CommandLine& line) {
+  const RefineOptions& o = line.options;
+  return {{"pe_bound", o.pe_bound},
+          {"seams", "none"},
+          {"box_aspect", o.box_aspect == 0 ? Json("free") : Json(o.box_aspect)},
+          {"gap", o.gap ? to_json(*o.gap) : Json("automatic")},
+          {"max_distortion", o.max_distortion ? Json(*o.max_distortion) : Json(nullptr)},
+          {"best_effort", o.best_effort},
+          {"density", o.density == Density::Keep ? "keep" : "equal"},
+          {"seed", o.seed},
+          {"threads", o.threads},
+          {"svg", line.svg_folder ? Json(line.svg_folder->string()) : Json(nullptr)}};
+}
+
+Json to_json(const ChartReport& chart) {
+  return {{"faces", chart.faces},
+          {"mirrored", chart.mirrored},
+          {"re_embedded", chart.re_embedded},
+          {"distortion_before", number(chart.distortion_before)},
+          {"distortion_after", number(chart.distortion_after)},
+          {"stretch_max", number(chart.stretch_max)}};
+}
+
+Json to_json(const Validity& validity) {
+  return {{"valid", validity.valid()},
+          {"problem", validity.problem},
+          {"chart", validity.chart},
+          {"face", validity.face},
+          {"flipped_faces", validity.flipped_faces},
+          {"mirrored_charts", validity.mirrored_charts},
+          {"crossings", validity.crossings}};
+}
+
+template <class... Args>
+std::string print(const char* format, Args... args) {
+  char line[256];
+  std::snprintf(line, sizeof line, format, args...);
+  return line;
+}
+
+/// A distance as fraction of the box diagonal, or "none" where there is nothing to be apart from.
+std::string gap_text(double gap) { return std::isfinite(gap) ? print("%.5f of the diagonal", gap) : "none"; }
+
+}  // namespace
+
+std::string json_report(const CommandLine& line, const RefineResult& result, const Times& times) {
+  Json charts = Json::array();
+  for (const ChartReport& chart : result.charts) charts.push_back(to_json(chart));
+  Json stages = Json::array();
+  for (const StageTime& stage : result.timings) stages.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
+  return dump({{"program", "atlas-refine"},
+               {"version", version()},
+               {"input", line.input.string()},
+               {"output", line.output.string()},
+               {"options", to_json(line)},
+               {"intervention", to_string(result.intervention)},
+               {"bound_met", result.bound_met},
+               {"before", to_json(result.before)},
+               {"after", to_json(result.after)},
+               {"added_seam_edges", result.after.seam_edges - result.before.seam_edges},
+               {"gap", to_json(result.gap)},
+               {"price", number(result.price)},
+               {"iterations", result.iterations},
+               {"charts", charts},
+               {"repairs", result.repairs},
+               {"warnings", result.warnings},
+               {"timings", stages},
+               {"seconds", {{"read", times.read}, {"refine", times.refine}, {"write", times.write}}}});
+}
+
+std::string summary(const RefineResult& result, const Times& times) {
+  const Measures& before = result.before;
+  const Measures& after = result.after;
+  std::string text = std::string(to_string(result.intervention)) + (result.bound_met ? "" : ", bound not met") + ": " +
+                     std::to_string(after.chart_count) + (after.chart_count == 1 ? " chart" : " charts") +
+                     print(" in %.2f s, %d iterations\n", times.refine, result.iterations);
+  text += print("  PE           %.4f -> %.4f\n", before.pe_fixed_aspect, after.pe_fixed_aspect);
+  text += print("  E_d          %.4f -> %.4f\n", before.distortion, after.distortion);
+  text += print("  stretch 99%%  %.3f -> %.3f, largest %.3f -> %.3f\n", before.stretch_99, after.stretch_99, before.stretch_max,
+                after.stretch_max);
+  text += print("  added seams  %d\n", after.seam_edges - before.seam_edges);
+  text += "  gap          " + gap_text(after.gap_between) + "\n";
+  for (const std::string& repair : result.repairs) text += "  repair: " + repair + "\n";
+  for (const std::string& warning : result.warnings) text += "  warning: " + warning + "\n";
+  return text;
+}
+
+std::string measures_json(const std::string& input, const Measures& measures, const Validity& validity) {
+  return dump({{"program", "atlas-refine"},
+               {"version", version()},
+               {"input", input},
+               {"measures", to_json(measures)},
+               {"validity", to_json(validity)}});
+}
+
+std::string measures_table(const Measures& m, const Validity& validity) {
+  std::string text;
+  const auto row = [&](const char* name, const std::string& value) { text += print("%-34s ", name) + value + "\n"; };
+  row("packing efficiency (PE)", print("%.4f", m.pe));
+  if (m.pe_fixed_aspect != m.pe) row("PE in the box of the asked aspect", print("%.4f", m.pe_fixed_aspect));
+  row("box", print("%.6g x %.6g", m.box_width, m.box_height));
+  row("charts (CN)", std::to_string(m.chart_count));
+  row("smallest chart (SA)", print("%.4g of the surface", m.smallest_chart));
+  row("charts under 3 % (N3)", std::to_string(m.small_charts));
+  row("seam edges", std::to_string(m.seam_edges));
+  row("seam length (BL)", print("%.4f of the mesh's diagonal", m.boundary_length));
+  row("distortion (E_d)", print("%.4f", m.distortion));
+  row("stretch, 99 %", print("%.3f", m.stretch_99));
+  row("stretch, largest", print("%.3f", m.stretch_max));
+  row("gap between charts", gap_text(m.gap_between));
+  row("gap within charts", gap_text(m.gap_within));
+  row("valid", validity.valid() ? "yes" : "no: " + validity.problem);
+  if (!validity.valid())
+    row("", print("%d flipped faces, %d mirrored charts, %d crossings", validity.flipped_faces, validity.mirrored_charts,
+                  validity.crossings));
+  return text;
+}
+
+}  // namespace atlas_refine::cli
