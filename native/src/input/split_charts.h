@@ -21,10 +21,12 @@ struct FaceDefect {
 
 /// The input atlas as charts. Chart UVs are the input's values, except that mirrored charts are turned over (u negated).
 struct ChartSet {
-  std::vector<Chart> charts;          ///< ordered by their smallest input face
-  std::vector<CornerRef> corners;     ///< one per input corner
-  std::vector<bool> mirrored;         ///< one per chart
-  std::vector<FaceDefect> defects;    ///< faces whose triangles are not all positive; empty for a usable atlas
+  std::vector<Chart> charts;        ///< ordered by their smallest input face
+  std::vector<CornerRef> corners;   ///< one per input corner
+  std::vector<bool> mirrored;       ///< one per chart
+  std::vector<FaceDefect> defects;  ///< faces whose triangles are not all positive; empty for a usable atlas
+  int seam_edges = 0;               ///< edges in space between two faces or more that are not joined in the UV map
+  double seam_length = 0;           ///< their length in space, each once, without natural boundary
 };
 
 /// Splits an atlas by UV connectivity: faces that share an edge (by vertex, or by equal positions) with equal UVs at both
@@ -33,6 +35,9 @@ struct ChartSet {
 /// consistent in space, else by a triangulation of the UV polygon.
 /// Throws RefineError(BadInput) for arrays that do not fit together, indices out of range, NaN or no faces.
 ChartSet split_charts(const Atlas& atlas);
+
+/// The same charts where the input's UVs lie: mirrored charts are turned back, their triangles still counterclockwise.
+std::vector<Chart> charts_as_placed(const ChartSet& set);
 
 /// Throws RefineError(BadInput) that names chart and face of the first defect, and how many there are.
 void require_no_defects(const Atlas& atlas, const ChartSet& set);

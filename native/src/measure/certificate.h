@@ -8,8 +8,13 @@
 
 namespace atlas_refine {
 
+/// Two points of one boundary loop are "far apart" where the boundary between them is at least this fraction of the box diagonal
+/// long: ten times the default gap of 0.0025. Nearer ones are corners and wiggles of one border, not two borders that face.
+inline constexpr double kFarArc = 10 * 0.0025;
+
 /// Exact check of placed charts: every triangle strictly positive, no two boundary edges (of one chart or of two) that cross
-/// or touch except neighbours at their common vertex. Also finds charts that lie wholly inside another chart's interior.
+/// or touch except neighbours at their common vertex. Also finds charts that lie wholly inside another chart's interior, and
+/// charts that overlap themselves without crossing boundaries. Counting of crossings stops at 10000.
 /// `chart` and `face` of the answer refer to `charts` and Chart::triangle_faces.
 Validity certify_charts(const std::vector<Chart>& charts);
 
@@ -17,7 +22,8 @@ Validity certify_charts(const std::vector<Chart>& charts);
 double gap_between_charts(const std::vector<Chart>& charts);
 
 /// For each chart the smallest distance, absolute, between a boundary vertex and a boundary edge of the same loop that face
-/// each other through the outside and whose distance along the boundary is at least `far_arc`; infinity where there is none.
+/// each other through the outside and whose distance along the boundary is at least `far_arc`. Sought up to a distance of
+/// `far_arc`; infinity where there is none.
 std::vector<double> gap_within_charts(const std::vector<Chart>& charts, double far_arc);
 
 }  // namespace atlas_refine

@@ -14,12 +14,15 @@ struct DirichletSums {
   double area = 0;
 
   DirichletSums& operator+=(const DirichletSums& other);
-  double best_scale() const;    ///< t that minimises the energy
-  double best_energy() const;   ///< the energy at that t
+  double best_scale() const;   ///< t that minimises the energy
+  double best_energy() const;  ///< the energy at that t
 };
 
+/// Triangles without UV area, whose energy is infinite, are left out.
 DirichletSums dirichlet_sums(const Chart& chart);
 DirichletSums dirichlet_sums(const std::vector<Chart>& charts);
+/// From the UVs of `from` to those of `to`: best_energy() is E_2. The charts must have the same triangles.
+DirichletSums dirichlet_sums_between(const std::vector<Chart>& from, const std::vector<Chart>& to);
 
 /// max(s1, 1 / s2) of every triangle's Jacobian (rest -> UV) times `scale`.
 std::vector<double> triangle_stretch(const Chart& chart, double scale);

@@ -1,0 +1,21 @@
+// The undeformed shape of a triangle, laid flat.
+#pragma once
+
+#include "geometry/chart.h"
+
+namespace atlas_refine {
+
+/// Triangles lower than this fraction of their longest edge count as slivers: their shape in space is the rounding of their
+/// file's digits.
+inline constexpr double kSliverHeight = 1e-7;
+
+/// The triangle in the plane, p0 at the origin and p1 on the positive x axis. Zero `area` where it is a sliver.
+RestTriangle rest_from_space(const Vec3& p0, const Vec3& p1, const Vec3& p2);
+
+/// The shape of a triangle of the plane, counterclockwise, times `scale`. Zero `area` where it is a sliver or not positive.
+RestTriangle rest_from_plane(const Vec2& p0, const Vec2& p1, const Vec2& p2, double scale);
+
+/// An equilateral triangle of the given area > 0.
+RestTriangle rest_equilateral(double area);
+
+}  // namespace atlas_refine

@@ -1,0 +1,276 @@
+// Input to charts (section 3, "Inputs"): UV connectivity, mirrored charts turned, flips counted.
+#include "input/split_charts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "atlas_refine/error.h"
+#include "geometry/half_edge_mesh.h"
+#include "geometry/predicates.h"
+#include "geometry/rest_triangle.h"
+#include "geometry/triangulate_polygon.h"
+#include "input/check_atlas.h"
+#include "input/join_edges.h"
+
+namespace atlas_refine {
+
+namespace {
+
+/// Weight of a face without a shape in space, as a fraction of the mean triangle: it must not count, and must not be zero.
+constexpr double kSliverWeight = 1e-6;
+
+/// Sets of corners that are united; the smallest corner stands for its set.
+class CornerSets {
+ public:
+  explicit CornerSets(int count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0); }
+
+  int find(int corner) {
+    while (parents_[corner] != corner) corner = parents_[corner] = parents_[parents_[corner]];
+    return corner;
+  }
+  void unite(int a, int b) {
+    a = find(a);
+    b = find(b);
+    parents_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> parents_;
+};
+
+double doubled_area(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+double face_area(const Atlas& atlas, int face) {
+  const int first = atlas.face_offsets[face];
+  double sum = 0;
+  for (int c = first + 2; c < atlas.face_offsets[face + 1]; ++c) {
+    sum += doubled_area(atlas.corner_uvs[first], atlas.corner_uvs[c - 1], atlas.corner_uvs[c]);
+  }
+  return 0.5 * sum;
+}
+
+class Splitter {
+ public:
+  explicit Splitter(const Atlas& atlas) : atlas_(atlas), joins_(join_edges(atlas)) {
+    set_.seam_edges = joins_.seam_edges;
+    set_.seam_length = joins_.seam_length;
+  }
+
+  ChartSet run() {
+    number_charts();
+    orient_charts();
+    number_vertices();
+    for (int f = 0; f < atlas_.face_count(); ++f) add_face(f);
+    give_slivers_a_shape();
+    for (Chart& chart : set_.charts) set_boundary(chart);
+    return std::move(set_);
+  }
+
+ private:
+  int chart_count() const { return static_cast<int>(set_.charts.size()); }
+
+  void number_charts() {
+    face_charts_.assign(atlas_.face_count(), -1);
+    std::vector<int> stack;
+    int count = 0;
+    for (int seed = 0; seed < atlas_.face_count(); ++seed) {
+      if (face_charts_[seed] >= 0) continue;
+      face_charts_[seed] = count;
+      stack.assign(1, seed);
+      while (!stack.empty()) {
+        const int face = stack.back();
+        stack.pop_back();
+        for (int c = atlas_.face_offsets[face]; c < atlas_.face_offsets[face + 1]; ++c) {
+          if (joins_.partners[c] < 0) continue;
+          const int other = joins_.corner_faces[joins_.partners[c]];
+          if (face_charts_[other] >= 0) continue;
+          face_charts_[other] = count;
+          stack.push_back(other);
+        }
+      }
+      ++count;
+    }
+    set_.charts.resize(count);
+  }
+
+  /// A chart is mirrored where the UV area of its faces, wound as the input has them, sums to less than zero. Then u is negated.
+  /// Either way its faces are turned together so that the chart's area is positive; faces that are not are defects.
+  void orient_charts() {
+    std::vector<double> as_wound(chart_count(), 0), as_joined(chart_count(), 0);
+    for (int f = 0; f < atlas_.face_count(); ++f) {
+      const double area = face_area(atlas_, f);
+      as_wound[face_charts_[f]] += area;
+      as_joined[face_charts_[f]] += joins_.turned_faces[f] ? -area : area;
+    }
+    set_.mirrored.resize(chart_count());
+    for (int k = 0; k < chart_count(); ++k) set_.mirrored[k] = as_wound[k] < 0;
+    for (int f = 0; f < atlas_.face_count(); ++f) {
+      const int k = face_charts_[f];
+      const bool negative = (as_joined[k] < 0) != set_.mirrored[k];
+      if (negative) joins_.turned_faces[f] = !joins_.turned_faces[f];
+    }
+  }
+
+  /// UV vertices: corners united across joined edges, so that each has one fan of faces.
+  void number_vertices() {
+    CornerSets sets(atlas_.corner_count());
+    for (int c = 0; c < atlas_.corner_count(); ++c) {
+      const int partner = joins_.partners[c];
+      if (partner < c) continue;
+      const int c_end = joins_.next_corner(atlas_, c), partner_end = joins_.next_corner(atlas_, partner);
+      const bool alike = joins_.turned_faces[joins_.corner_faces[c]] == joins_.turned_faces[joins_.corner_faces[partner]];
+      sets.unite(c, alike ? partner_end : partner);
+      sets.unite(c_end, alike ? partner : partner_end);
+    }
+    set_.corners.resize(atlas_.corner_count());
+    for (int c = 0; c < atlas_.corner_count(); ++c) {
+      const int k = face_charts_[joins_.corner_faces[c]];
+      const int root = sets.find(c);
+      Chart& chart = set_.charts[k];
+      if (root == c) chart.uvs.push_back(uv(c));
+      set_.corners[c] = root == c ? CornerRef{k, chart.vertex_count() - 1} : set_.corners[root];
+    }
+  }
+
+  /// The corner's UV as its chart has it.
+  Vec2 uv(int corner) const {
+    const Vec2& p = atlas_.corner_uvs[corner];
+    return set_.mirrored[face_charts_[joins_.corner_faces[corner]]] ? Vec2(-p.x(), p.y()) : p;
+  }
+
+  void add_face(int face) {
+    std::vector<int>& corners = scratch_corners_;
+    corners.resize(atlas_.face_offsets[face + 1] - atlas_.face_offsets[face]);
+    std::iota(corners.begin(), corners.end(), atlas_.face_offsets[face]);
+    if (joins_.turned_faces[face]) std::reverse(corners.begin() + 1, corners.end());
+    if (corners.size() == 3) {
+      if (!add_triangle(face, corners[0], corners[1], corners[2])) add_defect(face, corners);
+      return;
+    }
+    std::vector<Vec2> uvs;
+    std::vector<Vec3> positions;
+    for (int c : corners) {
+      uvs.push_back(uv(c));
+      positions.push_back(atlas_.positions[atlas_.corner_vertices[c]]);
+    }
+    auto triangles = triangulate_polygon(uvs, positions);
+    if (!triangles) {
+      add_defect(face, corners);
+      triangles = polygon_fan(static_cast<int>(corners.size()));
+    }
+    for (const Triangle& t : *triangles) add_triangle(face, corners[t[0]], corners[t[1]], corners[t[2]]);
+  }
+
+  /// False where the triangle is not positive.
+  bool add_triangle(int face, int a, int b, int c) {
+    const auto position = [&](int corner) { return atlas_.positions[atlas_.corner_vertices[corner]]; };
+    Chart& chart = set_.charts[face_charts_[face]];
+    chart.triangles.push_back({set_.corners[a].vertex, set_.corners[b].vertex, set_.corners[c].vertex});
+    chart.triangle_faces.push_back(face);
+    chart.rest.push_back(rest_from_space(position(a), position(b), position(c)));
+    return orientation(uv(a), uv(b), uv(c)) > 0;
+  }
+
+  void add_defect(int face, const std::vector<int>& corners) {
+    bool negative = false, zero = false;
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      const int sign = orientation(uv(corners[0]), uv(corners[i - 1]), uv(corners[i]));
+      negative = negative || sign < 0;
+      zero = zero || sign == 0;
+    }
+    set_.defects.push_back({face_charts_[face], face, zero && !negative});
+  }
+
+  /// Triangles without a shape in space take the one they have in the UV plane, at the scale of their chart, or an equilateral.
+  void give_slivers_a_shape() {
+    double area = 0;
+    std::size_t count = 0;
+    for (const Chart& chart : set_.charts) {
+      count += chart.rest.size();
+      for (const RestTriangle& rest : chart.rest) area += rest.area;
+    }
+    const double mean = area > 0 ? area / static_cast<double>(count) : 1;
+    for (Chart& chart : set_.charts) give_slivers_a_shape(chart, mean);
+  }
+
+  static void give_slivers_a_shape(Chart& chart, double mean_area) {
+    double surface = 0, plane = 0;
+    for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+      const Triangle& v = chart.triangles[t];
+      if (chart.rest[t].area == 0) continue;
+      surface += chart.rest[t].area;
+      plane += 0.5 * std::abs(doubled_area(chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]]));
+    }
+    const double ratio = std::sqrt(surface / plane);
+    const double scale = ratio > 0 && std::isfinite(ratio) ? ratio : 1;
+    for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+      const Triangle& v = chart.triangles[t];
+      RestTriangle& rest = chart.rest[t];
+      if (rest.area > 0) continue;
+      rest = rest_from_plane(chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]], scale);
+      if (rest.area == 0) rest = rest_equilateral(mean_area);
+      rest.area = kSliverWeight * mean_area;
+    }
+  }
+
+  static void set_boundary(Chart& chart) {
+    chart.boundary_loops = mesh_topology(chart.vertex_count(), chart.triangles).boundary_loops;
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < chart.boundary_loops.size(); ++i) {
+      const std::vector<int>& loop = chart.boundary_loops[i];
+      double sum = 0;
+      for (std::size_t j = 2; j < loop.size(); ++j) {
+        sum += doubled_area(chart.uvs[loop[0]], chart.uvs[loop[j - 1]], chart.uvs[loop[j]]);
+      }
+      order.push_back({-std::abs(sum), i});
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<std::vector<int>> sorted;
+    for (const auto& [area, i] : order) sorted.push_back(std::move(chart.boundary_loops[i]));
+    chart.boundary_loops = std::move(sorted);
+  }
+
+  const Atlas& atlas_;
+  EdgeJoins joins_;
+  ChartSet set_;
+  std::vector<int> face_charts_;
+  std::vector<int> scratch_corners_;
+};
+
+}  // namespace
+
+ChartSet split_charts(const Atlas& atlas) {
+  check_atlas(atlas);
+  return Splitter(atlas).run();
+}
+
+std::vector<Chart> charts_as_placed(const ChartSet& set) {
+  std::vector<Chart> charts = set.charts;
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    if (!set.mirrored[k]) continue;
+    for (Vec2& uv : charts[k].uvs) uv.x() = -uv.x();
+    for (Triangle& t : charts[k].triangles) std::swap(t[1], t[2]);
+    for (RestTriangle& rest : charts[k].rest) {
+      // The edges change places and the flat triangle is turned over, to stay counterclockwise.
+      rest.inverse_edges.row(0).swap(rest.inverse_edges.row(1));
+      rest.inverse_edges.col(1) *= -1;
+    }
+    for (std::vector<int>& loop : charts[k].boundary_loops) std::reverse(loop.begin(), loop.end());
+  }
+  return charts;
+}
+
+void require_no_defects(const Atlas& atlas, const ChartSet& set) {
+  if (set.defects.empty()) return;
+  const FaceDefect& first = set.defects.front();
+  std::string message = message_prefix(atlas) + "face " + std::to_string(first.face) + " of chart " +
+                        std::to_string(first.chart) +
+                        (first.zero_area ? " has no area in the UV map" : " is flipped or crosses itself in the UV map");
+  if (set.defects.size() > 1) message += " (and " + std::to_string(set.defects.size() - 1) + " more such faces)";
+  throw RefineError(ErrorCode::BadInput, "input", message, first.chart, first.face);
+}
+
+}  // namespace atlas_refine

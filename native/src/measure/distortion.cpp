@@ -1,0 +1,116 @@
+// Distortion of charts against the surface: E_d (eq. 9), E_2, stretch.
+#include "measure/distortion.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "geometry/rest_triangle.h"
+
+namespace atlas_refine {
+
+namespace {
+
+Mat2 uv_edges(const Chart& chart, std::size_t triangle) {
+  const Triangle& v = chart.triangles[triangle];
+  Mat2 edges;
+  edges.col(0) = chart.uvs[v[1]] - chart.uvs[v[0]];
+  edges.col(1) = chart.uvs[v[2]] - chart.uvs[v[0]];
+  return edges;
+}
+
+/// |J|^2 and |J^-1|^2 = |J|^2 / det^2 of one triangle. One without area is left out: it would make every sum infinite.
+void add_triangle(const Mat2& jacobian, double area, DirichletSums& sums) {
+  const double determinant = jacobian.determinant();
+  const double dirichlet = jacobian.squaredNorm();
+  const double inverse = dirichlet / (determinant * determinant);
+  if (!std::isfinite(inverse)) return;
+  sums.dirichlet += area * dirichlet;
+  sums.inverse += area * inverse;
+  sums.area += area;
+}
+
+}  // namespace
+
+DirichletSums& DirichletSums::operator+=(const DirichletSums& other) {
+  dirichlet += other.dirichlet;
+  inverse += other.inverse;
+  area += other.area;
+  return *this;
+}
+
+double DirichletSums::best_scale() const { return dirichlet > 0 ? std::sqrt(std::sqrt(inverse / dirichlet)) : 1; }
+
+double DirichletSums::best_energy() const { return area > 0 ? std::sqrt(dirichlet) * std::sqrt(inverse) / (2 * area) : 1; }
+
+DirichletSums dirichlet_sums(const Chart& chart) {
+  DirichletSums sums;
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    add_triangle(uv_edges(chart, t) * chart.rest[t].inverse_edges, chart.rest[t].area, sums);
+  }
+  return sums;
+}
+
+DirichletSums dirichlet_sums(const std::vector<Chart>& charts) {
+  DirichletSums sums;
+  for (const Chart& chart : charts) sums += dirichlet_sums(chart);
+  return sums;
+}
+
+DirichletSums dirichlet_sums_between(const std::vector<Chart>& from, const std::vector<Chart>& to) {
+  DirichletSums sums;
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    for (std::size_t t = 0; t < from[k].triangles.size(); ++t) {
+      const Triangle& v = from[k].triangles[t];
+      const RestTriangle rest = rest_from_plane(from[k].uvs[v[0]], from[k].uvs[v[1]], from[k].uvs[v[2]], 1);
+      if (rest.area > 0) add_triangle(uv_edges(to[k], t) * rest.inverse_edges, rest.area, sums);
+    }
+  }
+  return sums;
+}
+
+std::vector<double> triangle_stretch(const Chart& chart, double scale) {
+  std::vector<double> stretch(chart.triangles.size());
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    const Mat2 jacobian = scale * uv_edges(chart, t) * chart.rest[t].inverse_edges;
+    // s1 + s2 and s1 - s2 from the parts of J that turn and that mirror.
+    const double sum = std::hypot(jacobian(0, 0) + jacobian(1, 1), jacobian(1, 0) - jacobian(0, 1));
+    const double difference = std::hypot(jacobian(0, 0) - jacobian(1, 1), jacobian(1, 0) + jacobian(0, 1));
+    const double s1 = 0.5 * (sum + difference);
+    const double s2 = std::abs(jacobian.determinant()) / s1;
+    stretch[t] = s2 > 0 ? std::max(s1, 1 / s2) : std::numeric_limits<double>::infinity();
+  }
+  return stretch;
+}
+
+double uv_area(const Chart& chart) {
+  double area = 0;
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) area += 0.5 * std::abs(uv_edges(chart, t).determinant());
+  return area;
+}
+
+double uv_area(const std::vector<Chart>& charts) {
+  double area = 0;
+  for (const Chart& chart : charts) area += uv_area(chart);
+  return area;
+}
+
+Box uv_box(const std::vector<Chart>& charts) {
+  Box box;
+  bool first = true;
+  for (const Chart& chart : charts) {
+    for (const Vec2& uv : chart.uvs) {
+      box.min = first ? uv : box.min.cwiseMin(uv);
+      box.max = first ? uv : box.max.cwiseMax(uv);
+      first = false;
+    }
+  }
+  return box;
+}
+
+Box box_of_aspect(const Box& box, double aspect) {
+  if (aspect == 0) return box;
+  const double height = std::max(box.size().y(), box.size().x() / aspect);
+  return {box.min, box.min + Vec2(height * aspect, height)};
+}
+
+}  // namespace atlas_refine

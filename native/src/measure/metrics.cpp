@@ -1,0 +1,80 @@
+// The figures of measures.h, from charts (section 4, "Quality metrics").
+#include "measure/metrics.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+
+namespace atlas_refine {
+
+namespace {
+
+constexpr double kSmallChart = 0.03;  // N3 counts charts below this share of the surface
+constexpr double kPercentile = 0.99;
+
+double surface_area(const Chart& chart) {
+  double area = 0;
+  for (const RestTriangle& rest : chart.rest) area += rest.area;
+  return area;
+}
+
+void measure_chart_sizes(const std::vector<Chart>& charts, Measures& measures) {
+  std::vector<double> areas;
+  double total = 0;
+  for (const Chart& chart : charts) {
+    areas.push_back(surface_area(chart));
+    total += areas.back();
+  }
+  measures.chart_count = static_cast<int>(charts.size());
+  measures.smallest_chart = *std::min_element(areas.begin(), areas.end()) / total;
+  measures.small_charts =
+      static_cast<int>(std::count_if(areas.begin(), areas.end(), [&](double area) { return area < kSmallChart * total; }));
+}
+
+void measure_stretch(const std::vector<Chart>& charts, double scale, Measures& measures) {
+  std::vector<std::pair<double, double>> stretch_and_area;
+  double total = 0;
+  for (const Chart& chart : charts) {
+    const std::vector<double> stretch = triangle_stretch(chart, scale);
+    for (std::size_t t = 0; t < stretch.size(); ++t) {
+      stretch_and_area.push_back({stretch[t], chart.rest[t].area});
+      total += chart.rest[t].area;
+    }
+  }
+  std::sort(stretch_and_area.begin(), stretch_and_area.end());
+  measures.stretch_max = measures.stretch_99 = stretch_and_area.back().first;
+  double below = 0;
+  for (const auto& [stretch, area] : stretch_and_area) {
+    below += area;
+    if (below < kPercentile * total) continue;
+    measures.stretch_99 = stretch;
+    break;
+  }
+}
+
+}  // namespace
+
+Measures measure_charts(const std::vector<Chart>& charts, double box_aspect) {
+  Measures measures;
+  const Box box = uv_box(charts);
+  const double area = uv_area(charts);
+  const auto share_of = [&](const Box& whole) { return whole.area() > 0 ? area / whole.area() : 0; };
+  measures.pe = share_of(box);
+  measures.pe_fixed_aspect = share_of(box_of_aspect(box, box_aspect));
+  measures.box_width = box.size().x();
+  measures.box_height = box.size().y();
+  measure_chart_sizes(charts, measures);
+  const DirichletSums sums = dirichlet_sums(charts);
+  measures.distortion = sums.best_energy();
+  measures.distortion_to_input = 1;
+  measure_stretch(charts, sums.best_scale(), measures);
+  const double diagonal = box.diagonal() > 0 ? box.diagonal() : 1;
+  const std::vector<double> within = gap_within_charts(charts, kFarArc * diagonal);
+  measures.gap_between = gap_between_charts(charts) / diagonal;
+  measures.gap_within = *std::min_element(within.begin(), within.end()) / diagonal;
+  return measures;
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,59 @@
+// The public measure() and validate(): the atlas is split into charts, the charts are measured where they lie.
+#include "atlas_refine/error.h"
+#include "atlas_refine/measures.h"
+#include "input/split_charts.h"
+#include "measure/certificate.h"
+#include "measure/metrics.h"
+
+namespace atlas_refine {
+
+namespace {
+
+double bounding_box_diagonal(const Atlas& atlas) {
+  Vec3 low = atlas.positions[atlas.corner_vertices[0]], high = low;
+  for (int v : atlas.corner_vertices) {
+    low = low.cwiseMin(atlas.positions[v]);
+    high = high.cwiseMax(atlas.positions[v]);
+  }
+  return (high - low).norm();
+}
+
+std::string describe(const FaceDefect& defect) {
+  return "face " + std::to_string(defect.face) + " of chart " + std::to_string(defect.chart) +
+         (defect.zero_area ? " has no area in the UV map" : " is flipped or crosses itself in the UV map");
+}
+
+}  // namespace
+
+Measures measure(const Atlas& atlas, double box_aspect) {
+  if (!(box_aspect >= 0) || box_aspect > 1e6)
+    throw RefineError(ErrorCode::BadOption, "measure", "box aspect must be 0 (free) or positive");
+  const ChartSet set = split_charts(atlas);
+  Measures measures = measure_charts(charts_as_placed(set), box_aspect);
+  measures.seam_edges = set.seam_edges;
+  const double diagonal = bounding_box_diagonal(atlas);
+  measures.boundary_length = diagonal > 0 ? set.seam_length / diagonal : 0;
+  return measures;
+}
+
+Validity validate(const Atlas& atlas) {
+  const ChartSet set = split_charts(atlas);
+  Validity validity = certify_charts(charts_as_placed(set));
+  // Faces count here, and an n-gon counts where its outline crosses itself though some triangulation of it were positive.
+  validity.flipped_faces = static_cast<int>(set.defects.size());
+  for (std::size_t k = set.mirrored.size(); k-- > 0;) {
+    if (!set.mirrored[k]) continue;
+    ++validity.mirrored_charts;
+    validity.problem = "chart " + std::to_string(k) + " is mirrored";
+    validity.chart = static_cast<int>(k);
+    validity.face = -1;
+  }
+  if (!set.defects.empty()) {
+    validity.problem = describe(set.defects.front());
+    validity.chart = set.defects.front().chart;
+    validity.face = set.defects.front().face;
+  }
+  return validity;
+}
+
+}  // namespace atlas_refine
