@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Blender add-on: brings a UV map to a packing efficiency bound.
+
+operators.py and panels.py are thin; core/ knows no bpy; bridge/ holds every access to mesh data and every difference
+between Blender versions; native/ (added by `./dev package`) is the Python package with the engine.
+"""
+
+bl_info = {
+    "name": "Atlas Refine",
+    "author": "Atlas Refine contributors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "UV Editor > Sidebar > Atlas Refine",
+    "description": "Bring a UV map to a packing efficiency bound",
+    "category": "UV",
+}
+
+from . import operators, panels, preferences, settings
+
+MODULES = (preferences, settings, operators, panels)
+
+
+def register():
+    for module in MODULES:
+        module.register()
+
+
+def unregister():
+    for module in reversed(MODULES):
+        module.unregister()

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads an object's mesh and UV map into arrays and writes UVs back, in object mode and in edit mode."""
+
+import bmesh
+import numpy as np
+
+from ..core.atlas import AtlasArrays
+from . import versions
+
+
+class MeshError(Exception):
+    """The object cannot be used; the message is one line and does not name the object."""
+
+
+def find_uv_map(mesh, wanted):
+    """The name of a UV map: '' is the active one; else a name or, where no map has that name, an index."""
+    layers = mesh.uv_layers
+    if not layers:
+        raise MeshError("the mesh has no UV map")
+    if not wanted:
+        return layers.active.name
+    if wanted in layers:
+        return wanted
+    if wanted.isdecimal() and int(wanted) < len(layers):
+        return layers[int(wanted)].name
+    raise MeshError(f'the mesh has no UV map "{wanted}"')
+
+
+def check_writable(obj):
+    if obj.data.library is not None:
+        raise MeshError("the mesh is linked from a library and cannot be changed")
+
+
+def has_uneven_scale(obj):
+    """Whether the object's scale bends the surface in a way that UV tools, which work on the mesh, do not see."""
+    scale = np.abs(np.array(obj.scale))
+    return scale.max() > scale.min() * 1.001
+
+
+def read_atlas(obj, uv_map):
+    """The mesh and the named UV map as it is now; edit mode's pending changes included."""
+    if obj.mode == "EDIT":
+        return _read_edit_mesh(bmesh.from_edit_mesh(obj.data), uv_map)
+    return _read_mesh(obj.data, uv_map)
+
+
+def write_uvs(obj, uv_map, uvs):
+    """Stores (C, 2) float32 UVs in the named map and nothing else. Raises MeshError, with the old UVs back in place, where
+    what is then stored is not what was given."""
+    old = read_atlas(obj, uv_map).corner_uvs
+    _store(obj, uv_map, uvs)
+    if read_atlas(obj, uv_map).corner_uvs.tobytes() != uvs.tobytes():
+        _store(obj, uv_map, old)
+        raise MeshError("Blender did not store the new UVs as they were given")
+
+
+def _store(obj, uv_map, uvs):
+    mesh = obj.data
+    if obj.mode == "EDIT":
+        _write_edit_mesh(bmesh.from_edit_mesh(mesh), uv_map, uvs)
+        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+    else:
+        versions.write_uvs(mesh.uv_layers[uv_map], uvs)
+        mesh.update()
+
+
+def _read_mesh(mesh, uv_map):
+    positions = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", positions)
+    corner_vertices = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.loops.foreach_get("vertex_index", corner_vertices)
+    starts = np.empty(len(mesh.polygons), dtype=np.int32)
+    mesh.polygons.foreach_get("loop_start", starts)
+    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
+    if not np.array_equal(offsets[:-1], starts) or offsets[-1] != len(mesh.loops):
+        raise MeshError("the corners of the mesh's faces are not in order: run Mesh.validate() on it")
+    uvs = versions.read_uvs(mesh.uv_layers[uv_map], len(mesh.loops))
+    return AtlasArrays(positions.reshape(-1, 3), offsets, corner_vertices, uvs)
+
+
+def _read_edit_mesh(mesh, uv_map):
+    layer = _edit_layer(mesh, uv_map)
+    mesh.verts.index_update()
+    positions = np.array([vert.co for vert in mesh.verts], dtype=np.float32).reshape(-1, 3)
+    sizes = [len(face.loops) for face in mesh.faces]
+    offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
+    corner_vertices = np.array([loop.vert.index for face in mesh.faces for loop in face.loops], dtype=np.int32)
+    uvs = np.array([loop[layer].uv for face in mesh.faces for loop in face.loops], dtype=np.float32).reshape(-1, 2)
+    return AtlasArrays(positions, offsets, corner_vertices, uvs)
+
+
+def _write_edit_mesh(mesh, uv_map, uvs):
+    layer = _edit_layer(mesh, uv_map)
+    rows = iter(uvs.tolist())
+    for face in mesh.faces:
+        for loop in face.loops:
+            loop[layer].uv = next(rows)
+
+
+def _edit_layer(mesh, uv_map):
+    layer = mesh.loops.layers.uv.get(uv_map)
+    if layer is None:
+        raise MeshError(f'the mesh has no UV map "{uv_map}" any more')
+    return layer

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mesh with one UV map as arrays: what the engine reads."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class AtlasArrays:
+    positions: np.ndarray  # (V, 3) float32
+    face_offsets: np.ndarray  # (F + 1,) int32
+    corner_vertices: np.ndarray  # (C,) int32
+    corner_uvs: np.ndarray  # (C, 2) float32, as Blender stores them
+
+    def as_tuple(self):
+        return self.positions, self.face_offsets, self.corner_vertices, self.corner_uvs
+
+    def same_as(self, other):
+        """Whether every value is the same, bit for bit."""
+        pairs = zip(self.as_tuple(), other.as_tuple(), strict=True)
+        return all(mine.shape == theirs.shape and mine.tobytes() == theirs.tobytes() for mine, theirs in pairs)
+
+
+def stored_uvs(corner_uvs):
+    """The engine's float64 UVs as Blender's float32. It certified values that float32 holds exactly: anything else is a bug."""
+    stored = np.ascontiguousarray(corner_uvs, dtype=np.float32)
+    if not np.array_equal(stored.astype(np.float64), corner_uvs):
+        raise ValueError("the refined UVs do not fit single precision")
+    return stored

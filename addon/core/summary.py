@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A result's figures in words."""
+
+
+def headline(result):
+    """One line for the status bar: what was done, PE and E_d before and after."""
+    before, after = result.before, result.after
+    return (
+        f"{result.intervention.capitalize()}: PE {before.pe_fixed_aspect:.3f} -> {after.pe_fixed_aspect:.3f}, "
+        f"E_d {before.distortion:.4f} -> {after.distortion:.4f}"
+    )
+
+
+def figures(result):
+    """(name, before, after) rows for the panel."""
+    before, after = result.before, result.after
+    return [
+        ("PE", f"{before.pe_fixed_aspect:.3f}", f"{after.pe_fixed_aspect:.3f}"),
+        ("E_d", f"{before.distortion:.4f}", f"{after.distortion:.4f}"),
+        ("Stretch 99 %", f"{before.stretch_99:.3f}", f"{after.stretch_99:.3f}"),
+        ("Gap", _percent(before.gap_between), _percent(after.gap_between)),
+        ("Charts", str(before.chart_count), str(after.chart_count)),
+        ("Seam edges", str(before.seam_edges), str(after.seam_edges)),
+    ]
+
+
+def _percent(fraction):
+    return "-" if fraction == float("inf") else f"{100 * fraction:.2f} %"

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on's preferences: the values that new scenes start with."""
+
+import bpy
+
+from .properties import pe_bound_property, sigma_property
+
+
+def get():
+    return bpy.context.preferences.addons[__package__].preferences
+
+
+class AtlasRefinePreferences(bpy.types.AddonPreferences):
+    bl_idname = __package__
+
+    __annotations__ = {"pe_bound": pe_bound_property(), "sigma": sigma_property()}
+
+    def draw(self, _context):
+        column = self.layout.column()
+        column.use_property_split = True
+        column.label(text="Defaults for new scenes")
+        column.prop(self, "pe_bound")
+        column.prop(self, "sigma")
+
+
+def register():
+    bpy.utils.register_class(AtlasRefinePreferences)
+
+
+def unregister():
+    bpy.utils.unregister_class(AtlasRefinePreferences)

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel's options, kept in the scene."""
+
+import bpy
+from bpy.props import PointerProperty
+
+from . import preferences
+from .properties import other_properties, pe_bound_property, sigma_property
+
+
+def _follow_preference(name):
+    """A scene's value is the preference's until somebody sets it there: preferences are the defaults of new scenes."""
+    key = f"own_{name}"
+    return {
+        "get": lambda scene_settings: scene_settings.get(key, getattr(preferences.get(), name)),
+        "set": lambda scene_settings, value: scene_settings.__setitem__(key, value),
+    }
+
+
+class AtlasRefineSettings(bpy.types.PropertyGroup):
+    """The panel's options, kept in the scene."""
+
+    __annotations__ = {
+        "pe_bound": pe_bound_property(**_follow_preference("pe_bound")),
+        "sigma": sigma_property(**_follow_preference("sigma")),
+        **other_properties(),
+    }
+
+
+def register():
+    bpy.utils.register_class(AtlasRefineSettings)
+    bpy.types.Scene.atlas_refine = PointerProperty(type=AtlasRefineSettings)
+
+
+def unregister():
+    del bpy.types.Scene.atlas_refine
+    bpy.utils.unregister_class(AtlasRefineSettings)

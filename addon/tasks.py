@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One refinement: read the mesh, run the engine beside Blender, write the UVs. At most one runs with a window's progress."""
+
+import bpy
+
+from .bridge import mesh as bridge
+from .core.atlas import stored_uvs
+from .engine import AtlasRefineError, start
+
+#: What a task may fail with for reasons that lie in the object or the options.
+FAILURES = (AtlasRefineError, bridge.MeshError, ValueError)
+
+#: The task whose progress the panel shows.
+running = None
+#: The result that the panel shows, and the name of its object.
+last = None
+
+
+class Task:
+    """Starts at once. Holds names, not Blender's data: undo may replace that meanwhile."""
+
+    def __init__(self, obj, uv_map, options):
+        bridge.check_writable(obj)
+        self.object_name = obj.name
+        self.uv_map = bridge.find_uv_map(obj.data, uv_map)
+        self.uneven_scale = bridge.has_uneven_scale(obj)
+        self.atlas = bridge.read_atlas(obj, self.uv_map)
+        self.job = start(*self.atlas.as_tuple(), name=obj.name, **options.engine_arguments())
+
+    def finish(self):
+        """Waits for the engine, writes the UVs and returns the result; raises one of FAILURES with the mesh as it was."""
+        global last
+        result = self.job.result()
+        obj = bpy.data.objects.get(self.object_name)
+        if obj is None or obj.type != "MESH":
+            raise bridge.MeshError("the object is gone")
+        if self.uv_map not in obj.data.uv_layers or not bridge.read_atlas(obj, self.uv_map).same_as(self.atlas):
+            raise bridge.MeshError("the mesh was changed meanwhile; nothing was written")
+        if result.intervention != "unchanged":
+            bridge.write_uvs(obj, self.uv_map, stored_uvs(result.corner_uvs))
+        last = (self.object_name, result)
+        return result
+
+    def warnings(self, result):
+        if self.uneven_scale:
+            yield "the object's scale is uneven; the UVs follow the mesh without it"
+        yield from result.repairs
+        yield from result.warnings
+
+
+def stop_running(*_):
+    """Ends the running task, if there is one, and waits for its thread: before a file is loaded and on unregister."""
+    global running
+    if running is not None:
+        running.job.cancel()
+        running.job.wait()
+        running = None

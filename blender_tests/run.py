@@ -1,0 +1,29 @@
+"""Runs one test file inside Blender and writes its counts: after `--`, the file and the JSON to write.
+
+    blender -b --factory-startup --python-exit-code 1 --python blender_tests/run.py -- FILE RESULT.json
+    python3 blender_tests/run.py -- FILE RESULT.json          (with the bpy module)
+"""
+
+import json
+import pathlib
+import sys
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def main(test_file, result_file):
+    sys.path[:0] = [str(HERE), str(HERE.parent / "tests" / "python")]
+    suite = unittest.defaultTestLoader.loadTestsFromName(pathlib.Path(test_file).stem)
+    result = unittest.TextTestRunner(stream=sys.stdout, verbosity=2).run(suite)
+    bad = len(result.failures) + len(result.errors)
+    skipped = [f"{test.id()}: {reason}" for test, reason in result.skipped]
+    counts = {"passed": result.testsRun - bad - len(skipped), "failed": bad, "skipped": skipped}
+    pathlib.Path(result_file).write_text(json.dumps(counts))
+    sys.stdout.flush()
+    if bad or result.testsRun == 0:
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[sys.argv.index("--") + 1 :])

@@ -1,0 +1,121 @@
+"""bpy.ops.uv.atlas_refine() in the background: the bound is met on what Blender stores; failures leave the mesh alone."""
+
+import unittest
+
+import bpy
+import numpy as np
+import shapes
+from support import add_mesh, changes, fresh_scene, get_uvs, packing_efficiency, set_uvs, snapshot
+
+
+class Operator(unittest.TestCase):
+    def setUp(self):
+        fresh_scene()
+
+    def assert_refused(self, obj, words, **options):
+        before = snapshot(obj)
+        with self.assertRaises(RuntimeError) as caught:
+            bpy.ops.uv.atlas_refine(**options)
+        for word in (obj.name, *words):
+            self.assertIn(word, str(caught.exception))
+        self.assertEqual(changes(before, snapshot(obj)), [])
+
+    def test_the_bound_is_met_on_the_stored_values(self):
+        for pe_bound in (0.8, 0.85):
+            obj = add_mesh()
+            layer = obj.data.uv_layers.active
+            self.assertLess(packing_efficiency(obj.data, layer), 0.5)
+            self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=pe_bound), {"FINISHED"})
+            self.assertGreaterEqual(packing_efficiency(obj.data, layer), pe_bound)
+
+    def test_the_default_bound_is_080(self):
+        obj = add_mesh()
+        bpy.ops.uv.atlas_refine()
+        self.assertGreaterEqual(packing_efficiency(obj.data, obj.data.uv_layers.active), 0.8)
+
+    def test_a_square(self):
+        obj = add_mesh()
+        layer = obj.data.uv_layers.active
+        bpy.ops.uv.atlas_refine(pe_bound=0.8, aspect="SQUARE")
+        extent = np.ptp(get_uvs(layer).astype(np.float64), axis=0)
+        self.assertGreaterEqual(packing_efficiency(obj.data, layer) * np.prod(extent) / extent.max() ** 2, 0.8)
+
+    def test_a_gap_in_pixels(self):
+        add_mesh()
+        self.assertEqual(
+            bpy.ops.uv.atlas_refine(pe_bound=0.75, gap="PIXELS", gap_px=4, texture_size=1024, density="EQUAL"), {"FINISHED"}
+        )
+
+    def test_what_is_at_the_bound_stays_bit_for_bit(self):
+        obj = add_mesh(shapes.tight())
+        before = snapshot(obj)
+        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.9), {"FINISHED"})
+        self.assertEqual(changes(before, snapshot(obj)), [])
+
+    def test_the_same_seed_gives_the_same_bits(self):
+        results = []
+        for _ in range(2):
+            obj = add_mesh()
+            bpy.ops.uv.atlas_refine(seed=7)
+            results.append(get_uvs(obj.data.uv_layers.active).tobytes())
+        self.assertEqual(results[0], results[1])
+
+    def test_a_uv_map_by_name_and_by_index(self):
+        for wanted in ("Second", "1"):
+            obj = add_mesh(uv_map="First")
+            second = obj.data.uv_layers.new(name="Second")
+            obj.data.uv_layers.active_index = 0
+            before = snapshot(obj, but_uvs_of="Second")
+            bpy.ops.uv.atlas_refine(uv_map=wanted)
+            self.assertEqual(changes(before, snapshot(obj, but_uvs_of="Second")), [])
+            self.assertGreaterEqual(packing_efficiency(obj.data, obj.data.uv_layers["Second"]), 0.8)
+            del second
+
+    def test_a_mesh_with_several_users(self):
+        obj = add_mesh()
+        twin = bpy.data.objects.new("Twin", obj.data)
+        bpy.context.collection.objects.link(twin)
+        self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
+        self.assertIs(twin.data, obj.data)
+        self.assertEqual(obj.data.users, 2)
+        self.assertGreaterEqual(packing_efficiency(twin.data, twin.data.uv_layers.active), 0.8)
+
+    def test_no_uv_map(self):
+        obj = add_mesh()
+        obj.data.uv_layers.remove(obj.data.uv_layers.active)
+        self.assert_refused(obj, ["no UV map"])
+
+    def test_no_uv_map_of_that_name(self):
+        self.assert_refused(add_mesh(), ["no UV map", "Lightmap"], uv_map="Lightmap")
+
+    def test_no_faces(self):
+        mesh = bpy.data.meshes.new("Empty")
+        mesh.uv_layers.new(name="UVMap")
+        obj = bpy.data.objects.new("Empty", mesh)
+        bpy.context.collection.objects.link(obj)
+        bpy.context.view_layer.objects.active = obj
+        with self.assertRaisesRegex(RuntimeError, "Empty"):
+            bpy.ops.uv.atlas_refine()
+
+    def test_no_mesh_object(self):
+        with self.assertRaisesRegex(RuntimeError, "active mesh object"):
+            bpy.ops.uv.atlas_refine()
+
+    def test_a_bound_out_of_range(self):
+        for pe_bound in (0.0, 1.0, 1.2):
+            self.assert_refused(add_mesh(), [], pe_bound=pe_bound)
+
+    def test_a_uv_that_is_not_a_number(self):
+        obj = add_mesh()
+        uvs = get_uvs(obj.data.uv_layers.active)
+        uvs[13] = np.nan
+        set_uvs(obj.data.uv_layers.active, uvs)
+        self.assert_refused(obj, ["face 3"])
+
+    def test_a_bound_out_of_reach(self):
+        options = {"pe_bound": 0.999, "gap": "PIXELS", "gap_px": 50, "texture_size": 1024}
+        self.assert_refused(add_mesh(), ["PE"], **options)
+        obj = add_mesh()
+        before = packing_efficiency(obj.data, obj.data.uv_layers.active)
+        self.assertEqual(bpy.ops.uv.atlas_refine(best_effort=True, **options), {"FINISHED"})
+        self.assertGreater(packing_efficiency(obj.data, obj.data.uv_layers.active), before)
