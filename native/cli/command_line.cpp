@@ -83,8 +83,10 @@ class Parser {
       const std::string first = extras.empty() ? "arguments" : extras.front();
       throw UsageError(first + (first.starts_with("-") ? ": unknown option" : ": unexpected argument"));
     } catch (const CLI::ArgumentMismatch& error) {
-      // "--gap: 1 required TEXT missing"
-      throw UsageError(std::string(error.what()).substr(0, std::string(error.what()).find(':')) + ": needs exactly one value");
+      // "--gap: 1 required TEXT missing", "json was given a disallowed flag override"
+      const std::string what = error.what();
+      const std::string name = what.substr(0, what.find_first_of(": "));
+      throw UsageError(name.starts_with("-") ? name + ": needs exactly one value" : "--" + name + ": takes no value");
     }
     finish();
     return line_;
@@ -128,7 +130,8 @@ class Parser {
         [&](const Value& v) { options.box_aspect = aspect(v); });
     add("--max-distortion", "E_d", "Largest distortion E_d allowed, 1 = isometric [no limit]",
         [&](const Value& v) { options.max_distortion = v.number_in(1, HUGE_VAL, false, "a number of at least 1"); });
-    app_.add_flag("--best-effort", options.best_effort, "Write the best valid atlas found even if it misses the bound");
+    app_.add_flag("--best-effort", options.best_effort, "Write the best valid atlas found even if it misses the bound")
+        ->disable_flag_override();
     add("--density", "equal|keep", "One scale for all charts, or each chart's own as in IN [equal]", [&](const Value& v) {
       if (v.text != "equal" && v.text != "keep") v.refuse("must be 'equal' or 'keep'");
       options.density = v.text == "keep" ? Density::Keep : Density::Equal;
@@ -169,7 +172,7 @@ class Parser {
     add(*measure_, "FILE", "", "The atlas: an OBJ file with UVs", [this](const Value& v) { line_.input = v.text; });
     add(*measure_, "--aspect", "free|square|W:H", "Shape of the box PE is measured in [free]",
         [this](const Value& v) { line_.options.box_aspect = aspect(v); });
-    measure_->add_flag("--json", line_.json, "Print JSON instead of a table");
+    measure_->add_flag("--json", line_.json, "Print JSON instead of a table")->disable_flag_override();
   }
 
   void finish() {

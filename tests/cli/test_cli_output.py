@@ -1,0 +1,169 @@
+"""What the program writes: the input's bytes with new UVs, a report, a summary."""
+
+import json
+import os
+import stat
+
+import pytest
+from obj_shapes import box_efficiency, grid, records, uvs, without_uvs
+
+
+def refine(program, tmp_path, text, *options, name="in.obj"):
+    source, target = tmp_path / name, tmp_path / "out.obj"
+    source.write_bytes(text.encode())
+    run = program(source, "-o", target, *options)
+    assert run.returncode == 0, run.stderr.decode()
+    assert run.stderr == b""
+    return target.read_bytes().decode(), run.stdout.decode()
+
+
+def test_atlas_at_the_bound_comes_back_byte_for_byte(program, tmp_path):
+    text = grid(4).replace("vt 0.25 0.25", "vt 2.50e-1\t.25  # a comment", 1) + "# the end, without a line end"
+    result, told = refine(program, tmp_path, text)
+    assert result == text
+    assert told.startswith("unchanged")
+
+
+@pytest.mark.parametrize("relative", [False, True])
+@pytest.mark.parametrize("normals", [False, True])
+@pytest.mark.parametrize("line_end", ["\n", "\r\n"])
+def test_only_uv_records_change(program, tmp_path, relative, normals, line_end):
+    text = grid(4, 30, relative=relative, normals=normals, line_end=line_end)
+    result, _ = refine(program, tmp_path, text)
+    assert without_uvs(result) == without_uvs(text)
+    assert len(uvs(result)) == len(uvs(text))
+    assert uvs(result) != uvs(text)
+    assert box_efficiency(text) < 0.8 <= box_efficiency(result)
+
+
+def test_uvs_are_shortest_round_trip_decimals(program, tmp_path):
+    result, _ = refine(program, tmp_path, grid(4, 30, bump=0.2))
+    for record in records(result, "vt"):
+        for number in record.split()[1:]:
+            assert len(number) <= len(repr(float(number))) + 1
+    assert any(len(number) > 14 for record in records(result, "vt") for number in record.split()[1:])
+
+
+def test_rare_syntax_is_kept(program, tmp_path):
+    text = (
+        "\ufeff# polygons, colours, continuations\r\n"
+        "v 0 0 0 1 0.5 0.25\r\nv +1e0 0 0\r\nv 1 1 0 # corner\r\nv 0 1. 0\r\nv .5 1.5 0 1.0\r\n"
+        "vt 0.5\r\nvt 1 0.5\r\nvt 0.5 1 0.125\r\n\tvt 0 \\\r\n 0.5  # fourth\r\nvt 0 1 0\r\nvt 7 7\r\n"
+        "vn 0 0 1\r\n\r\n"
+        "p 1 2\r\nl 1/1 2/2 -1/-1\r\ncstype bezier\r\nusemtl with spaces \\ and more\r\n"
+        "  f  1/1/1 2/2/1 \\\r\n  3/3/1\t-2/-3/-1 #end\r\n"
+        "f 4/4/1 3/3/1 5/5/1"
+    )
+    result, _ = refine(program, tmp_path, text, "--pe-bound", "0.9", "--best-effort")
+    kept = [line for line in text.split("\r\n") if "vt" not in line and line != " 0.5  # fourth"]
+    assert [line for line in result.split("\r\n") if "vt" not in line and not line.endswith("# fourth")] == kept
+    assert "vt 7 7\r\n" in result
+    assert len(records(result, "vt")) == 6
+
+
+def test_forward_references_and_interleaved_blocks(program, tmp_path):
+    blocks, corner = [], 1
+    for k in range(3):
+        blocks.append(f"o part{k}\n")
+        quad = " ".join(f"{corner + i}/{corner + i}" for i in range(4))
+        face = f"f {quad}\n"
+        points = "".join(f"v {x + 2 * k} {y} 0\nvt {0.1 * x + 0.3 * k} {0.1 * y}\n" for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+        blocks.append(face + points if k == 1 else points + face)
+        corner += 4
+    text = "".join(blocks)
+    result, _ = refine(program, tmp_path, text)
+    assert without_uvs(result) == without_uvs(text)
+
+
+def test_file_names_with_spaces_and_other_scripts(program, tmp_path):
+    folder = tmp_path / "Ünï cödé 図"
+    folder.mkdir()
+    refine(program, folder, grid(3, 30), "--report", folder / "bericht ä.json", name="my atlas é.obj")
+    assert json.loads((folder / "bericht ä.json").read_text())["input"].endswith("my atlas é.obj")
+
+
+def test_file_name_that_is_not_utf8(program, tmp_path):
+    source = os.fsencode(tmp_path) + b"/\xff.obj"
+    with open(source, "w") as file:
+        file.write(grid(3))
+    report = tmp_path / "r.json"
+    assert program(source, "-o", tmp_path / "out.obj", "--report", report).returncode == 0
+    json.loads(report.read_text())
+
+
+def test_output_in_place(program, tmp_path):
+    path = tmp_path / "a.obj"
+    path.write_text(grid(4, 30))
+    path.chmod(0o640)
+    assert program(path, "-o", path).returncode == 0
+    assert box_efficiency(path.read_text()) >= 0.8
+    assert stat.S_IMODE(path.stat().st_mode) == 0o640
+    assert [p.name for p in tmp_path.iterdir()] == ["a.obj"]
+
+
+def test_output_through_a_link_keeps_the_link(program, tmp_path):
+    source, target, link = tmp_path / "in.obj", tmp_path / "real.obj", tmp_path / "link.obj"
+    source.write_text(grid(3))
+    target.write_text("old")
+    link.symlink_to(target)
+    assert program(source, "-o", link).returncode == 0
+    assert link.is_symlink()
+    assert target.read_text() == source.read_text()
+
+
+def test_report(program, tmp_path):
+    report = tmp_path / "r.json"
+    options = ["--seed", "7", "--gap-px", "2", "--texture-size", "1024", "--aspect", "2:1", "--pe-bound", "0.7"]
+    refine(program, tmp_path, grid(4, 30), *options, "--best-effort", "--report", report)
+    told = json.loads(report.read_text())
+    assert told["program"] == "atlas-refine"
+    assert told["version"].count(".") == 2
+    assert told["options"]["seed"] == 7
+    assert told["options"]["pe_bound"] == 0.7
+    assert told["options"]["box_aspect"] == 2
+    assert told["options"]["gap"] == {"value": 2 / 1024, "unit": "long_side"}
+    assert told["intervention"] in ("moved", "squeezed")
+    assert told["before"]["pe"] == pytest.approx(box_efficiency(grid(4, 30)))
+    assert told["after"]["gap_between"] is None
+    assert told["added_seam_edges"] == 0
+    for key in ("bound_met", "price", "iterations", "charts", "repairs", "warnings", "timings", "gap"):
+        assert key in told
+    assert set(told["seconds"]) == {"read", "refine", "write"}
+
+
+def test_measure_prints_a_table_and_changes_nothing(program, tmp_path):
+    path = tmp_path / "in.obj"
+    path.write_text(grid(4, 30))
+    run = program("measure", path)
+    assert (run.returncode, run.stderr) == (0, b"")
+    assert b"packing efficiency" in run.stdout
+    assert b"yes" in run.stdout
+    assert [p.name for p in tmp_path.iterdir()] == ["in.obj"]
+
+
+def test_measure_json(program, tmp_path):
+    path = tmp_path / "in.obj"
+    path.write_text(grid(4, 30))
+    told = json.loads(program("measure", path, "--json", "--aspect", "1:2").stdout)
+    assert told["measures"]["pe"] == pytest.approx(box_efficiency(grid(4, 30)))
+    assert told["measures"]["pe_fixed_aspect"] == pytest.approx(told["measures"]["pe"] / 2)
+    assert told["measures"]["chart_count"] == 1
+    assert told["measures"]["gap_between"] is None
+    assert told["validity"]["valid"] is True
+
+
+def test_measure_says_what_is_not_valid(program, tmp_path):
+    path = tmp_path / "in.obj"
+    path.write_text(grid(2).replace("vt 0.5 0.5\n", "vt 5.5 0.5\n"))
+    run = program("measure", path, "--json")
+    assert run.returncode == 0
+    told = json.loads(run.stdout)["validity"]
+    assert told["valid"] is False
+    assert told["problem"]
+
+
+def test_pictures_are_drawn(program, tmp_path):
+    refine(program, tmp_path, grid(4, 30), "--svg", tmp_path / "pictures")
+    drawn = sorted((tmp_path / "pictures").glob("*.svg"))
+    assert drawn
+    assert all("<svg" in picture.read_text() for picture in drawn)

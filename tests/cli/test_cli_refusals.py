@@ -1,0 +1,170 @@
+"""Bad input and bad usage: one clear line, the right exit code, nothing written, an old output left as it was."""
+
+import os
+
+import pytest
+from obj_shapes import grid
+
+QUAD = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+FACE = "f 1/1 2/2 3/3 4/4\n"
+
+BAD_FILES = {
+    "empty": ("", "is empty"),
+    "no faces": (QUAD, "has no faces"),
+    "binary": ("\x89PNG\r\n\x1a\n\x00\x01\x02", "has no faces"),
+    "no UVs": (QUAD + "f 1 2 3 4\n", "has no UVs"),
+    "no UVs, normals": (QUAD + "vn 0 0 1\nf 1//1 2//1 3//1\n", "has no UVs"),
+    "some faces without UVs": (QUAD + FACE + "f 1 2 3\n", "line 10: face 1 has no UVs"),
+    "some corners without UVs": (QUAD + "f 1/1 2/2 3\n", "line 9: face 0: corner '3'"),
+    "mixed corners": (QUAD + "vn 0 0 1\nf 1/1/1 2/2/1 3/3\n", "line 10: face 0: corner '3/3'"),
+    "NaN position": (QUAD.replace("v 1 1 0", "v 1 nan 0") + FACE, "line 3: a vertex position that is not finite"),
+    "infinite position": (QUAD.replace("v 1 1 0", "v 1 -inf 0") + FACE, "line 3: a vertex position that is not finite"),
+    "huge position": (QUAD.replace("v 1 1 0", "v 1 1e999 0") + FACE, "line 3: a vertex position that is not finite"),
+    "NaN UV": (QUAD.replace("vt 1 0", "vt NaN 0") + FACE, "line 6: a UV that is not finite"),
+    "infinite UV": (QUAD.replace("vt 1 0", "vt 1 inf") + FACE, "line 6: a UV that is not finite"),
+    "text for a number": (QUAD.replace("v 1 1 0", "v 1 one 0") + FACE, "line 3: 'one' is not a number"),
+    "decimal comma": (QUAD.replace("vt 1 0", "vt 1,0 0") + FACE, "line 6: '1,0' is not a number"),
+    "short position": (QUAD.replace("v 1 1 0", "v 1 1") + FACE, "line 3: a vertex position with too few numbers"),
+    "vt without numbers": (QUAD.replace("vt 1 0", "vt") + FACE, "line 6: a vt record without a number"),
+    "vertex out of range": (QUAD + "f 1/1 2/2 5/3\n", "line 9: face 0: vertex 5 is out of range"),
+    "UV out of range": (QUAD + "f 1/1 2/2 3/5\n", "line 9: face 0: UV index 5 is out of range"),
+    "normal out of range": (QUAD + "vn 0 0 1\nf 1/1/1 2/2/2 3/3/1\n", "line 10: normal index 2 is out of range"),
+    "index zero": (QUAD + "f 0/1 2/2 3/3\n", "line 9: index out of range in '0/1'"),
+    "negative out of range": (QUAD + "f -5/1 2/2 3/3\n", "line 9: index out of range in '-5/1'"),
+    "enormous index": (QUAD + "f 1/1 2/2 99999999999999999999/3\n", "line 9: index out of range"),
+    "garbage corner": (QUAD + "f 1/1 2/2 x/3\n", "line 9: 'x/3' is not a face corner"),
+    "fractional corner": (QUAD + "f 1/1 2/2 3.5/3\n", "line 9: '3.5/3' is not a face corner"),
+    "two corners": (QUAD + FACE + "f 1/1 2/2\n", "line 10: face 1 has 2 corners"),
+    "no corners": (QUAD + FACE + "f\n", "line 10: face 1 has 0 corners"),
+    "vertex used twice": (QUAD + "f 1/1 2/2 1/3\n", "line 9: face 0: vertex 1 is used twice"),
+    "cut in a face": (grid(4)[: grid(4).rindex("f ") + 8], "corner"),
+    "cut before the faces": (grid(4)[: grid(4).index("f ")], "has no faces"),
+    "line numbers after continuations": (QUAD + "f 1/1 \\\n2/2 \\\n3/3\nf 1/1 2/2 9/3\n", "line 12: face 1: vertex 9"),
+    "line numbers in a CRLF file": ((QUAD + "f 1/1 2/2 x/3\n").replace("\n", "\r\n"), "line 9: 'x/3'"),
+    "line numbers in a CR file": ((QUAD + "f 1/1 2/2 x/3\n").replace("\n", "\r"), "line 9: 'x/3'"),
+}
+
+
+@pytest.fixture
+def old_output(tmp_path):
+    path = tmp_path / "out.obj"
+    path.write_text("the old file")
+    yield path
+    assert path.read_text() == "the old file"
+    assert {p.name for p in tmp_path.iterdir()} <= {"in.obj", "out.obj", "folder"}
+
+
+@pytest.fixture
+def good(tmp_path):
+    path = tmp_path / "in.obj"
+    path.write_text(grid(4, 30))
+    return path
+
+
+@pytest.mark.parametrize("case", BAD_FILES)
+@pytest.mark.parametrize("job", ["refine", "measure"])
+def test_file_that_cannot_be_used(program, tmp_path, old_output, case, job):
+    text, expected = BAD_FILES[case]
+    path = tmp_path / "in.obj"
+    path.write_bytes(text.encode("latin-1"))
+    message = program.refused(3, path, "-o", old_output) if job == "refine" else program.refused(3, "measure", path)
+    assert message.startswith(f"atlas-refine: {path}: ")
+    assert expected in message
+
+
+@pytest.mark.parametrize("job", ["refine", "measure"])
+def test_missing_file_and_folder(program, tmp_path, old_output, job):
+    (tmp_path / "folder").mkdir()
+    for name, expected in (("nothing.obj", "does not exist"), ("folder", "is a directory")):
+        arguments = [tmp_path / name, "-o", old_output] if job == "refine" else ["measure", tmp_path / name]
+        assert program.refused(3, *arguments) == f"atlas-refine: {tmp_path / name}: " + (
+            expected if name != "folder" else "is a directory, not an OBJ file"
+        )
+
+
+BAD_OPTIONS = [
+    (["--pe-bound", "0"], "--pe-bound"),
+    (["--pe-bound", "1"], "--pe-bound"),
+    (["--pe-bound", "1.2"], "--pe-bound"),
+    (["--pe-bound", "-0.5"], "--pe-bound"),
+    (["--pe-bound", "nan"], "--pe-bound"),
+    (["--pe-bound", "much"], "--pe-bound"),
+    (["--pe-bound", "0.8x"], "--pe-bound"),
+    (["--pe-bound", ""], "--pe-bound"),
+    (["--pe-bound"], "--pe-bound"),
+    (["--pe-bound", "0.7", "--pe-bound", "0.8"], "--pe-bound"),
+    (["--unknown"], "--unknown"),
+    (["--unknown", "3"], "--unknown"),
+    (["-x"], "-x"),
+    (["another.obj"], "another.obj"),
+    (["--seams", "rectangles"], "--seams"),
+    (["--aspect", "round"], "--aspect"),
+    (["--aspect", "2:0"], "--aspect"),
+    (["--aspect", "-2:1"], "--aspect"),
+    (["--aspect", "2:1:1"], "--aspect"),
+    (["--gap", "-0.1"], "--gap"),
+    (["--gap", "0.5"], "--gap"),
+    (["--gap-px", "4"], "--gap-px"),
+    (["--texture-size", "1024"], "--texture-size"),
+    (["--gap-px", "4", "--texture-size", "0"], "--texture-size"),
+    (["--gap-px", "4", "--texture-size", "8"], "--gap-px"),
+    (["--gap-px", "4", "--texture-size", "1024", "--gap", "0.01"], "--gap-px"),
+    (["--max-distortion", "0.5"], "--max-distortion"),
+    (["--density", "none"], "--density"),
+    (["--seed", "-1"], "--seed"),
+    (["--seed", "1.5"], "--seed"),
+    (["--threads", "-1"], "--threads"),
+    (["--best-effort=3"], "--best-effort"),
+]
+
+
+@pytest.mark.parametrize(("options", "thing"), BAD_OPTIONS, ids=lambda value: " ".join(value) if isinstance(value, list) else "")
+def test_option_that_cannot_be_understood(program, good, old_output, options, thing):
+    assert thing in program.refused(2, good, "-o", old_output, *options)
+
+
+@pytest.mark.parametrize("arguments", [[], ["-o", "out.obj"], ["measure"], ["measure", "a.obj", "b.obj"], ["measure", "--gap", "1"]])
+def test_missing_or_surplus_arguments(program, arguments):
+    program.refused(2, *arguments)
+
+
+def test_missing_output(program, good):
+    assert "--output" in program.refused(2, good)
+
+
+def test_output_folder_that_does_not_exist(program, tmp_path, good, old_output):
+    missing = tmp_path / "missing"
+    assert "does not exist" in program.refused(2, good, "-o", missing / "out.obj")
+    assert "does not exist" in program.refused(2, good, "-o", old_output, "--report", missing / "r.json")
+    assert "does not exist" in program.refused(2, good, "-o", old_output, "--svg", missing / "pictures")
+
+
+def test_output_that_is_no_file(program, tmp_path, good, old_output):
+    (tmp_path / "folder").mkdir()
+    program.refused(2, good, "-o", tmp_path / "folder")
+    program.refused(2, good, "-o", "/dev/null")
+    program.refused(2, good, "-o", "")
+    program.refused(2, good, "-o", old_output, "--report", old_output)
+    program.refused(2, good, "-o", old_output, "--report", good)
+    program.refused(2, good, "-o", old_output, "--svg", good)
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_folder_without_permission(program, tmp_path, good):
+    folder = tmp_path / "folder"
+    folder.mkdir(mode=0o500)
+    program.refused(2, good, "-o", folder / "out.obj")
+
+
+def test_bound_out_of_reach_writes_nothing(program, good, tmp_path, old_output):
+    message = program.refused(4, good, "-o", old_output, "--pe-bound", "0.99", "--max-distortion", "1", "--report", tmp_path / "r.json")
+    assert "0." in message
+
+
+def test_help_and_version(program):
+    for arguments in (["--help"], ["measure", "--help"], ["--version"]):
+        run = program(*arguments)
+        assert (run.returncode, run.stderr) == (0, b"")
+    assert program("--version").stdout.startswith(b"atlas-refine ")
+    for option in ("--pe-bound", "--gap-px", "--texture-size", "--max-distortion", "--best-effort", "--svg", "--report"):
+        assert option.encode() in program("--help").stdout
