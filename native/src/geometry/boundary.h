@@ -1,0 +1,51 @@
+// The boundaries of all charts of an atlas as one flat structure, and the search for pairs that are near each other.
+#pragma once
+
+#include <vector>
+
+#include "geometry/chart.h"
+
+namespace atlas_refine {
+
+/// All boundary vertices, loop after loop. Edge e runs from boundary vertex e to next[e], the chart on its left.
+struct Boundary {
+  std::vector<int> vertex;         ///< index into the flat vertex array of all charts
+  std::vector<int> next;
+  std::vector<int> previous;
+  std::vector<int> chart;
+  std::vector<int> loop;
+  std::vector<double> arc;          ///< position along the loop, measured on the surface
+  std::vector<double> loop_length;  ///< one per loop
+
+  int size() const { return static_cast<int>(vertex.size()); }
+  /// Distance along the common loop between boundary vertex `point` and edge `edge`, on the surface.
+  double arc_between(int point, int edge) const;
+};
+
+/// Flattens the loops of `charts`; vertex k of chart c becomes first_vertex[c] + k.
+Boundary make_boundary(const std::vector<Chart>& charts, const std::vector<int>& first_vertex);
+
+struct PointEdge {
+  int point;  ///< boundary vertex
+  int edge;   ///< boundary edge
+};
+
+/// All pairs whose swept boxes (position and position + displacement) come within `radius`, ordered by point, then edge.
+/// Left out: edges that end at the point, and pairs of different loops of one chart (the chart itself lies between them).
+/// `displacements` may be empty: nothing moves.
+std::vector<PointEdge> near_pairs(const Boundary& boundary, const std::vector<Vec2>& positions,
+                                  const std::vector<Vec2>& displacements, double radius);
+
+/// Where a point and a segment are closest.
+struct Closest {
+  double along;     ///< parameter on the segment, in [0, 1]
+  Vec2 offset;      ///< from the closest point of the segment to the point
+  double distance;  ///< |offset|
+};
+Closest closest_on_segment(const Vec2& point, const Vec2& start, const Vec2& end);
+
+/// True where the shortest way between point and edge leaves both into the outside of the chart. Pairs that face each other
+/// through the chart's interior are no contacts.
+bool faces_outside(const Boundary& boundary, const std::vector<Vec2>& positions, const PointEdge& pair, const Closest& closest);
+
+}  // namespace atlas_refine

@@ -1,0 +1,79 @@
+// Tutte's embedding onto a disk.
+#include "geometry/tutte.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+
+#include "geometry/boundary.h"
+
+namespace atlas_refine {
+namespace {
+
+/// Undirected edges of the chart with its inner loops filled, each once per adjacent triangle: interior edges count twice.
+std::vector<std::pair<int, int>> filled_edges(const Chart& chart, std::size_t outer) {
+  std::vector<std::pair<int, int>> edges;
+  for (const Triangle& t : chart.triangles) {
+    for (int k = 0; k < 3; ++k) edges.emplace_back(t[k], t[(k + 1) % 3]);
+  }
+  int hidden = chart.vertex_count();
+  for (std::size_t l = 0; l < chart.boundary_loops.size(); ++l) {
+    if (l == outer) continue;
+    for (int v : chart.boundary_loops[l]) edges.emplace_back(v, hidden);
+    ++hidden;
+  }
+  return edges;
+}
+
+}  // namespace
+
+std::vector<Vec2> tutte_disk(const Chart& chart) {
+  const Boundary boundary = make_boundary({chart}, {0});
+  std::size_t outer = 0;
+  for (std::size_t l = 1; l < boundary.loop_length.size(); ++l) {
+    if (boundary.loop_length[l] > boundary.loop_length[outer]) outer = l;
+  }
+  double surface = 0;
+  for (const RestTriangle& rest : chart.rest) surface += rest.area;
+  const double radius = std::sqrt(surface / std::numbers::pi);
+  const int count = chart.vertex_count() + static_cast<int>(chart.boundary_loops.size()) - 1;
+  std::vector<Vec2> uvs(count, Vec2::Zero());
+  std::vector<char> fixed(count, 0);
+  for (int b = 0; b < boundary.size(); ++b) {
+    if (boundary.loop[b] != static_cast<int>(outer)) continue;
+    const double angle = 2 * std::numbers::pi * boundary.arc[b] / boundary.loop_length[outer];
+    uvs[boundary.vertex[b]] = radius * Vec2(std::cos(angle), std::sin(angle));
+    fixed[boundary.vertex[b]] = 1;
+  }
+
+  std::vector<int> unknown(count, -1);
+  int unknowns = 0;
+  for (int v = 0; v < count; ++v) {
+    if (!fixed[v]) unknown[v] = unknowns++;
+  }
+  std::vector<Eigen::Triplet<double>> triplets;
+  Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(unknowns, 2);
+  const auto add = [&](int from, int to) {
+    if (fixed[from]) return;
+    triplets.emplace_back(unknown[from], unknown[from], 1.0);
+    if (fixed[to]) right.row(unknown[from]) += uvs[to].transpose();
+    else triplets.emplace_back(unknown[from], unknown[to], -1.0);
+  };
+  for (const auto& [i, j] : filled_edges(chart, outer)) {
+    add(i, j);
+    add(j, i);
+  }
+  Eigen::SparseMatrix<double> laplacian(unknowns, unknowns);
+  laplacian.setFromTriplets(triplets.begin(), triplets.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(laplacian);
+  const Eigen::MatrixX2d solution = solver.solve(right);
+  for (int v = 0; v < count; ++v) {
+    if (!fixed[v]) uvs[v] = solution.row(unknown[v]).transpose();
+  }
+  uvs.resize(chart.vertex_count());
+  return uvs;
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,13 @@
+// Tutte's embedding: a bijective start for a chart that has none.
+#pragma once
+
+#include "geometry/chart.h"
+
+namespace atlas_refine {
+
+/// UVs of `chart` embedded in a disk of the surface's area: its longest boundary loop on the circle at surface arc lengths, every
+/// other loop filled by one hidden vertex, each interior vertex at the mean of its neighbours. Free of flips and overlaps up to
+/// rounding, which may spoil triangles of strongly shrunk parts: the caller checks. Tutte 1963; positive weights, Floater 2003.
+std::vector<Vec2> tutte_disk(const Chart& chart);
+
+}  // namespace atlas_refine

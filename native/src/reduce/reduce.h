@@ -1,0 +1,60 @@
+// The engine: least distortion of placed charts under a packing efficiency target, gaps kept (section 3.3, squeeze.md).
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "atlas_refine/refine.h"
+#include "geometry/chart.h"
+
+namespace atlas_refine {
+
+/// Absolute gap for a box of the given sides.
+double gap_length(const Gap& gap, const Vec2& box_size);
+
+struct ReduceProblem {
+  const std::vector<Chart>& charts;  ///< placed, free of flips and crossings; the start
+  Gap gap;                           ///< smallest distance between charts; within a chart the same, or the start's own if less
+  double box_aspect = 0;             ///< width / height, 0 = free
+  double pe_target = 0;              ///< in (0, 1), below or above the present PE; 0 = no box: least distortion in open space
+  double enough_distortion = 0;      ///< stop as soon as the bound holds and E_d is at most this; 0 = go to the optimum
+  double max_distortion = 0;         ///< give up the climb once the cheapest E_d at the present PE exceeds this; 0 = no limit
+  int max_iterations = 600;
+  int threads = 1;
+};
+
+enum class ReduceStatus {
+  Converged,     ///< the target holds and E_d is at its optimum there
+  Stalled,       ///< no further progress; `reached` tells whether the target holds
+  TooDistorted,  ///< max_distortion was met before the target
+  OutOfTime,     ///< max_iterations
+  Cancelled,     ///< the monitor asked to stop; the best state so far is returned
+};
+
+struct ReduceProgress {
+  int iteration;
+  double pe;
+  double energy;
+  double price;
+  double fraction;  ///< of the Newton step that was taken
+};
+/// False = stop.
+using ReduceMonitor = std::function<bool(const ReduceProgress&)>;
+
+struct ReduceResult {
+  std::vector<std::vector<Vec2>> uvs;  ///< one array per chart, in the start's units
+  ReduceStatus status = ReduceStatus::Converged;
+  bool reached = false;                ///< PE of the charts' own bounding box (of the asked aspect) is at least the target
+  double pe = 0;
+  double energy = 0;                   ///< E_d at the scale the charts have
+  double price = 0;                    ///< lambda
+  int iterations = 0;
+};
+
+/// Minimises E_d + barrier subject to log PE >= log target by projected Newton with one multiplier.
+/// Differs from Algorithm 2: the box sides are unknowns and PE is a constraint with a price instead of a growing scaffold box and
+/// the barrier of eq. (13); the gap is exact, the bound cannot be overstepped, and the start may lie below the bound.
+ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor& monitor = {});
+
+}  // namespace atlas_refine
