@@ -9,6 +9,8 @@ import pathlib
 import sys
 import unittest
 
+import bpy  # noqa: F401  (the bpy module must come first: it makes addon_utils and bmesh importable)
+
 HERE = pathlib.Path(__file__).resolve().parent
 
 

@@ -63,13 +63,12 @@ class Operator(unittest.TestCase):
     def test_a_uv_map_by_name_and_by_index(self):
         for wanted in ("Second", "1"):
             obj = add_mesh(uv_map="First")
-            second = obj.data.uv_layers.new(name="Second")
+            obj.data.uv_layers.new(name="Second")
             obj.data.uv_layers.active_index = 0
             before = snapshot(obj, but_uvs_of="Second")
             bpy.ops.uv.atlas_refine(uv_map=wanted)
             self.assertEqual(changes(before, snapshot(obj, but_uvs_of="Second")), [])
             self.assertGreaterEqual(packing_efficiency(obj.data, obj.data.uv_layers["Second"]), 0.8)
-            del second
 
     def test_a_mesh_with_several_users(self):
         obj = add_mesh()

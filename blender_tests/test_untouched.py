@@ -11,8 +11,10 @@ def add_everything(obj):
     """Other UV maps, pins, vertex groups, colours, custom normals, shape keys, seams, materials, attributes, properties."""
     mesh = obj.data
     main = mesh.uv_layers.active
-    for index in (3, 17, 40):
-        main.data[index].pin_uv = True
+    if hasattr(main, "pin_ensure"):  # 3.5 and later: a new layer, which moves the old ones
+        main.pin_ensure()
+    for index, corner in enumerate(mesh.uv_layers.active.data):
+        corner.pin_uv = index in (3, 17, 40)
     other = mesh.uv_layers.new(name="Lightmap")
     set_uvs(other, get_uvs(mesh.uv_layers[0])[::-1] * 0.25)
     mesh.uv_layers.active_index = 0
