@@ -28,6 +28,9 @@ struct BuiltMesh {
 };
 
 BuiltMesh build_mesh(int vertex_count, const std::vector<Triangle>& triangles) {
+  // OpenMesh would complain on stderr of the non-manifold faces that are handled here.
+  static const bool silenced = (omerr().disable(), true);
+  static_cast<void>(silenced);
   BuiltMesh built;
   built.mesh.reserve(vertex_count, vertex_count + triangles.size(), triangles.size());
   const auto add_vertex = [&](int origin) {

@@ -21,19 +21,37 @@ using FaceBase = CGAL::Triangulation_face_base_with_info_2<bool, Kernel, CGAL::C
 using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                             CGAL::No_constraint_intersection_tag>;
 
-bool fan_is_positive(const std::vector<Vec2>& uvs) {
+/// A fan triangle below this share of the mean one is a sliver, in the UV plane or in space; another diagonal is better.
+constexpr double kSmallestShare = 0.05;
+
+/// Twice the signed area of the fan triangle that ends at corner i.
+double doubled_area(const std::vector<Vec2>& uvs, std::size_t i) {
+  const Vec2 a = uvs[i - 1] - uvs[0];
+  const Vec2 b = uvs[i] - uvs[0];
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+double doubled_area(const std::vector<Vec2>& uvs) {
+  double sum = 0;
+  for (std::size_t i = 2; i < uvs.size(); ++i) sum += doubled_area(uvs, i);
+  return sum;
+}
+
+bool fan_fits_uvs(const std::vector<Vec2>& uvs) {
+  const double smallest = kSmallestShare * doubled_area(uvs) / static_cast<double>(uvs.size() - 2);
   for (std::size_t i = 2; i < uvs.size(); ++i) {
-    if (orientation(uvs[0], uvs[i - 1], uvs[i]) <= 0) return false;
+    if (orientation(uvs[0], uvs[i - 1], uvs[i]) <= 0 || doubled_area(uvs, i) < smallest) return false;
   }
   return true;
 }
 
-bool fan_is_consistent(const std::vector<Vec3>& positions) {
+bool fan_fits_positions(const std::vector<Vec3>& positions) {
   const auto normal = [&](std::size_t i) -> Vec3 { return (positions[i - 1] - positions[0]).cross(positions[i] - positions[0]); };
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 2; i < positions.size(); ++i) sum += normal(i);
+  const double smallest = kSmallestShare * sum.squaredNorm() / static_cast<double>(positions.size() - 2);
   for (std::size_t i = 2; i < positions.size(); ++i) {
-    if (normal(i).dot(sum) < 0) return false;
+    if (normal(i).dot(sum) < smallest) return false;
   }
   return true;
 }
@@ -78,17 +96,6 @@ void mark_outside(Delaunay& delaunay) {
   }
 }
 
-/// Twice the signed area, to tell the sense of a polygon that is known to be simple.
-double doubled_area(const std::vector<Vec2>& uvs) {
-  double sum = 0;
-  for (std::size_t i = 2; i < uvs.size(); ++i) {
-    const Vec2 a = uvs[i - 1] - uvs[0];
-    const Vec2 b = uvs[i] - uvs[0];
-    sum += a.x() * b.y() - a.y() * b.x();
-  }
-  return sum;
-}
-
 }  // namespace
 
 std::vector<Triangle> polygon_fan(int corner_count) {
@@ -99,7 +106,7 @@ std::vector<Triangle> polygon_fan(int corner_count) {
 
 std::optional<std::vector<Triangle>> triangulate_polygon(const std::vector<Vec2>& uvs, const std::vector<Vec3>& positions) {
   const int count = static_cast<int>(uvs.size());
-  if (fan_is_positive(uvs) && fan_is_consistent(positions)) return polygon_fan(count);
+  if (fan_fits_uvs(uvs) && fan_fits_positions(positions)) return polygon_fan(count);
   Delaunay delaunay;
   if (doubled_area(uvs) <= 0 || !insert_polygon(uvs, delaunay)) return std::nullopt;
   mark_outside(delaunay);

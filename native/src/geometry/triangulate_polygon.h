@@ -12,8 +12,8 @@ namespace atlas_refine {
 std::vector<Triangle> polygon_fan(int corner_count);
 
 /// Triangles over the corners of a polygon with corners `uvs` in the UV plane and `positions` in space: the fan where that is
-/// strictly positive in the UV plane and no two of its normals oppose in space, else the constrained Delaunay triangulation
-/// of the UV polygon. Nothing where the UV polygon is not simple and counterclockwise.
+/// strictly positive in the UV plane, has no two opposing normals in space and no slivers in either, else the constrained
+/// Delaunay triangulation of the UV polygon. Nothing where the UV polygon is not simple and counterclockwise.
 std::optional<std::vector<Triangle>> triangulate_polygon(const std::vector<Vec2>& uvs, const std::vector<Vec3>& positions);
 
 }  // namespace atlas_refine

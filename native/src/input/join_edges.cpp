@@ -16,6 +16,7 @@ struct EdgeUse {
   int corner;
   int low_corner, high_corner;
 
+  bool runs_up() const { return corner == low_corner; }
   auto place_key() const { return std::tie(low_place, high_place); }
   auto vertex_key() const { return std::tie(low_vertex, high_vertex); }
   auto sort_key() const { return std::tie(low_place, high_place, low_vertex, high_vertex, corner); }
@@ -36,6 +37,16 @@ std::vector<int> places(const std::vector<Vec3>& positions) {
     place[order[i]] = same ? place[order[i - 1]] : order[i];
   }
   return place;
+}
+
+double doubled_uv_area(const Atlas& atlas, int face) {
+  const Vec2& first = atlas.corner_uvs[atlas.face_offsets[face]];
+  double sum = 0;
+  for (int c = atlas.face_offsets[face] + 2; c < atlas.face_offsets[face + 1]; ++c) {
+    const Vec2 a = atlas.corner_uvs[c - 1] - first, b = atlas.corner_uvs[c] - first;
+    sum += a.x() * b.y() - a.y() * b.x();
+  }
+  return sum;
 }
 
 std::vector<int> faces_of_corners(const Atlas& atlas) {
@@ -92,10 +103,10 @@ class Joiner {
     for (int from = begin, to = begin; from < end; from = to) {
       std::vector<int> same_vertices;
       for (; to < end && uses_[to].vertex_key() == uses_[from].vertex_key(); ++to) same_vertices.push_back(to);
-      const std::vector<int> single = join_equal_uvs(std::move(same_vertices));
+      const std::vector<int> single = join_equal_uvs(std::move(same_vertices), true);
       rest.insert(rest.end(), single.begin(), single.end());
     }
-    join_equal_uvs(std::move(rest));
+    join_equal_uvs(std::move(rest), false);
   }
 
   auto uv_key(int use) const {
@@ -105,7 +116,7 @@ class Joiner {
   }
 
   /// Joins where exactly two uses have equal UVs; returns those that are alone with theirs.
-  std::vector<int> join_equal_uvs(std::vector<int> group) {
+  std::vector<int> join_equal_uvs(std::vector<int> group, bool share_vertices) {
     std::sort(group.begin(), group.end(), [this](int a, int b) {
       const auto ka = uv_key(a), kb = uv_key(b);
       return ka != kb ? ka < kb : a < b;
@@ -115,20 +126,28 @@ class Joiner {
       while (end < group.size() && uv_key(group[end]) == uv_key(group[begin])) ++end;
       if (end - begin == 1) single.push_back(group[begin]);
       if (end - begin != 2) continue;
-      const int a = uses_[group[begin]].corner, b = uses_[group[begin + 1]].corner;
-      if (joins_.corner_faces[a] == joins_.corner_faces[b]) continue;
-      joins_.partners[a] = b;
-      joins_.partners[b] = a;
+      const EdgeUse &a = uses_[group[begin]], &b = uses_[group[begin + 1]];
+      if (joins_.corner_faces[a.corner] == joins_.corner_faces[b.corner]) continue;
+      if (!share_vertices && back_to_back(a, b)) continue;
+      joins_.partners[a.corner] = b.corner;
+      joins_.partners[b.corner] = a.corner;
     }
     return single;
   }
 
+  /// Faces on the same side of their common UV edge. Where they do not even share vertices they are the two sides of a sheet.
+  bool back_to_back(const EdgeUse& a, const EdgeUse& b) const {
+    const double area_a = doubled_uv_area(atlas_, joins_.corner_faces[a.corner]);
+    const double area_b = doubled_uv_area(atlas_, joins_.corner_faces[b.corner]);
+    return a.runs_up() == b.runs_up() ? area_a * area_b > 0 : area_a * area_b < 0;
+  }
+
   /// Two faces are wound alike where they run along their common edge in opposite senses.
-  bool wound_alike(int a, int b) const { return starts_low_[a] != starts_low_[b]; }
+  bool wound_alike(int a, int b) const { return runs_up_[a] != runs_up_[b]; }
 
   void orient_faces() {
-    starts_low_.assign(atlas_.corner_count(), false);
-    for (const EdgeUse& use : uses_) starts_low_[use.corner] = use.low_corner == use.corner;
+    runs_up_.assign(atlas_.corner_count(), false);
+    for (const EdgeUse& use : uses_) runs_up_[use.corner] = use.runs_up();
     std::vector<bool> visited(atlas_.face_count(), false);
     std::vector<int> queue;
     for (int seed = 0; seed < atlas_.face_count(); ++seed) {
@@ -167,7 +186,7 @@ class Joiner {
   const Atlas& atlas_;
   EdgeJoins joins_;
   std::vector<EdgeUse> uses_;
-  std::vector<bool> starts_low_;  ///< one per corner: its edge runs from the low place to the high one
+  std::vector<bool> runs_up_;  ///< one per corner: its edge runs from the low place to the high one
 };
 
 }  // namespace

@@ -22,7 +22,8 @@ struct EdgeJoins {
 };
 
 /// Joins every two edges with equal ends, by vertex first, then by equal positions, and equal UVs at both ends. Where more
-/// than two such edges meet they stay seams. Edges whose join would make a chart one-sided (Moebius) stay seams as well, so
+/// than two such edges meet they stay seams, and so do edges equal by position only whose faces lie on the same side of them in
+/// the UV plane: the front and back of a sheet. Edges whose join would make a chart one-sided (Moebius) stay seams as well, so
 /// that charts are orientable, and manifold once corners are united across joins only.
 EdgeJoins join_edges(const Atlas& atlas);
 

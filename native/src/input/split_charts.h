@@ -31,8 +31,8 @@ struct ChartSet {
 
 /// Splits an atlas by UV connectivity: faces that share an edge (by vertex, or by equal positions) with equal UVs at both
 /// ends belong together. Faces of opposite winding are joined too, so that no seam arises where the UVs have none. Edges
-/// with more than two such faces are seams. Polygons are triangulated here: as a fan where that is positive in the UV plane and
-/// consistent in space, else by a triangulation of the UV polygon.
+/// with more than two such faces are seams. Polygons are triangulated here: as a fan where that is positive in the UV plane,
+/// consistent in space and free of slivers, else by a triangulation of the UV polygon.
 /// Throws RefineError(BadInput) for arrays that do not fit together, indices out of range, NaN or no faces.
 ChartSet split_charts(const Atlas& atlas);
 

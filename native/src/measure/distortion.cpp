@@ -2,7 +2,9 @@
 #include "measure/distortion.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/rest_triangle.h"
 
@@ -18,10 +20,11 @@ Mat2 uv_edges(const Chart& chart, std::size_t triangle) {
   return edges;
 }
 
-/// |J|^2 and |J^-1|^2 = |J|^2 / det^2 of one triangle. One without area is left out: it would make every sum infinite.
-void add_triangle(const Mat2& jacobian, double area, DirichletSums& sums) {
-  const double determinant = jacobian.determinant();
-  const double dirichlet = jacobian.squaredNorm();
+/// |J|^2 and |J^-1|^2 = |J|^2 / det^2 of one triangle. One without UV area is left out: it would make every sum infinite.
+/// The determinant is taken factor by factor, so that it is zero where the UV edges are parallel.
+void add_triangle(const Mat2& uv_edges, const Mat2& inverse_edges, double area, DirichletSums& sums) {
+  const double determinant = uv_edges.determinant() * inverse_edges.determinant();
+  const double dirichlet = (uv_edges * inverse_edges).squaredNorm();
   const double inverse = dirichlet / (determinant * determinant);
   if (!std::isfinite(inverse)) return;
   sums.dirichlet += area * dirichlet;
@@ -40,12 +43,15 @@ DirichletSums& DirichletSums::operator+=(const DirichletSums& other) {
 
 double DirichletSums::best_scale() const { return dirichlet > 0 ? std::sqrt(std::sqrt(inverse / dirichlet)) : 1; }
 
-double DirichletSums::best_energy() const { return area > 0 ? std::sqrt(dirichlet) * std::sqrt(inverse) / (2 * area) : 1; }
+double DirichletSums::best_energy() const {
+  if (!(area > 0)) return std::numeric_limits<double>::infinity();
+  return std::sqrt(dirichlet) * std::sqrt(inverse) / (2 * area);
+}
 
 DirichletSums dirichlet_sums(const Chart& chart) {
   DirichletSums sums;
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    add_triangle(uv_edges(chart, t) * chart.rest[t].inverse_edges, chart.rest[t].area, sums);
+    add_triangle(uv_edges(chart, t), chart.rest[t].inverse_edges, chart.rest[t].area, sums);
   }
   return sums;
 }
@@ -62,7 +68,7 @@ DirichletSums dirichlet_sums_between(const std::vector<Chart>& from, const std::
     for (std::size_t t = 0; t < from[k].triangles.size(); ++t) {
       const Triangle& v = from[k].triangles[t];
       const RestTriangle rest = rest_from_plane(from[k].uvs[v[0]], from[k].uvs[v[1]], from[k].uvs[v[2]], 1);
-      if (rest.area > 0) add_triangle(uv_edges(to[k], t) * rest.inverse_edges, rest.area, sums);
+      if (rest.area > 0) add_triangle(uv_edges(to[k], t), rest.inverse_edges, rest.area, sums);
     }
   }
   return sums;
@@ -71,12 +77,13 @@ DirichletSums dirichlet_sums_between(const std::vector<Chart>& from, const std::
 std::vector<double> triangle_stretch(const Chart& chart, double scale) {
   std::vector<double> stretch(chart.triangles.size());
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    const Mat2 jacobian = scale * uv_edges(chart, t) * chart.rest[t].inverse_edges;
+    const Mat2 edges = scale * uv_edges(chart, t);
+    const Mat2 jacobian = edges * chart.rest[t].inverse_edges;
     // s1 + s2 and s1 - s2 from the parts of J that turn and that mirror.
     const double sum = std::hypot(jacobian(0, 0) + jacobian(1, 1), jacobian(1, 0) - jacobian(0, 1));
     const double difference = std::hypot(jacobian(0, 0) - jacobian(1, 1), jacobian(1, 0) + jacobian(0, 1));
     const double s1 = 0.5 * (sum + difference);
-    const double s2 = std::abs(jacobian.determinant()) / s1;
+    const double s2 = std::abs(edges.determinant() * chart.rest[t].inverse_edges.determinant()) / s1;
     stretch[t] = s2 > 0 ? std::max(s1, 1 / s2) : std::numeric_limits<double>::infinity();
   }
   return stretch;
