@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "geometry/plane.h"
 #include "geometry/predicates.h"
 
 namespace atlas_refine {
@@ -24,23 +25,16 @@ using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triang
 /// A fan triangle below this share of the mean one is a sliver, in the UV plane or in space; another diagonal is better.
 constexpr double kSmallestShare = 0.05;
 
-/// Twice the signed area of the fan triangle that ends at corner i.
-double doubled_area(const std::vector<Vec2>& uvs, std::size_t i) {
-  const Vec2 a = uvs[i - 1] - uvs[0];
-  const Vec2 b = uvs[i] - uvs[0];
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-double doubled_area(const std::vector<Vec2>& uvs) {
-  double sum = 0;
-  for (std::size_t i = 2; i < uvs.size(); ++i) sum += doubled_area(uvs, i);
-  return sum;
+double polygon_area(const std::vector<Vec2>& uvs) {
+  double doubled = 0;
+  for (std::size_t i = 2; i < uvs.size(); ++i) doubled += doubled_area(uvs[0], uvs[i - 1], uvs[i]);
+  return 0.5 * doubled;
 }
 
 bool fan_fits_uvs(const std::vector<Vec2>& uvs) {
-  const double smallest = kSmallestShare * doubled_area(uvs) / static_cast<double>(uvs.size() - 2);
+  const double smallest = kSmallestShare * 2 * polygon_area(uvs) / static_cast<double>(uvs.size() - 2);
   for (std::size_t i = 2; i < uvs.size(); ++i) {
-    if (orientation(uvs[0], uvs[i - 1], uvs[i]) <= 0 || doubled_area(uvs, i) < smallest) return false;
+    if (orientation(uvs[0], uvs[i - 1], uvs[i]) <= 0 || doubled_area(uvs[0], uvs[i - 1], uvs[i]) < smallest) return false;
   }
   return true;
 }
@@ -108,7 +102,7 @@ std::optional<std::vector<Triangle>> triangulate_polygon(const std::vector<Vec2>
   const int count = static_cast<int>(uvs.size());
   if (fan_fits_uvs(uvs) && fan_fits_positions(positions)) return polygon_fan(count);
   Delaunay delaunay;
-  if (doubled_area(uvs) <= 0 || !insert_polygon(uvs, delaunay)) return std::nullopt;
+  if (polygon_area(uvs) <= 0 || !insert_polygon(uvs, delaunay)) return std::nullopt;
   mark_outside(delaunay);
   std::vector<Triangle> triangles;
   for (auto face : delaunay.finite_face_handles()) {

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "geometry/plane.h"
+
 namespace atlas_refine {
 
 namespace {
@@ -37,16 +39,6 @@ std::vector<int> places(const std::vector<Vec3>& positions) {
     place[order[i]] = same ? place[order[i - 1]] : order[i];
   }
   return place;
-}
-
-double doubled_uv_area(const Atlas& atlas, int face) {
-  const Vec2& first = atlas.corner_uvs[atlas.face_offsets[face]];
-  double sum = 0;
-  for (int c = atlas.face_offsets[face] + 2; c < atlas.face_offsets[face + 1]; ++c) {
-    const Vec2 a = atlas.corner_uvs[c - 1] - first, b = atlas.corner_uvs[c] - first;
-    sum += a.x() * b.y() - a.y() * b.x();
-  }
-  return sum;
 }
 
 std::vector<int> faces_of_corners(const Atlas& atlas) {
@@ -190,6 +182,15 @@ class Joiner {
 };
 
 }  // namespace
+
+double doubled_uv_area(const Atlas& atlas, int face) {
+  const int first = atlas.face_offsets[face];
+  double sum = 0;
+  for (int c = first + 2; c < atlas.face_offsets[face + 1]; ++c) {
+    sum += doubled_area(atlas.corner_uvs[first], atlas.corner_uvs[c - 1], atlas.corner_uvs[c]);
+  }
+  return sum;
+}
 
 EdgeJoins join_edges(const Atlas& atlas) { return Joiner(atlas).run(); }
 

@@ -21,6 +21,9 @@ struct EdgeJoins {
   }
 };
 
+/// Twice the signed UV area of a face as it is wound.
+double doubled_uv_area(const Atlas& atlas, int face);
+
 /// Joins every two edges with equal ends, by vertex first, then by equal positions, and equal UVs at both ends. Where more
 /// than two such edges meet they stay seams, and so do edges equal by position only whose faces lie on the same side of them in
 /// the UV plane: the front and back of a sheet. Edges whose join would make a chart one-sided (Moebius) stay seams as well, so

@@ -7,6 +7,7 @@
 
 #include "atlas_refine/error.h"
 #include "geometry/half_edge_mesh.h"
+#include "geometry/plane.h"
 #include "geometry/predicates.h"
 #include "geometry/rest_triangle.h"
 #include "geometry/triangulate_polygon.h"
@@ -38,19 +39,6 @@ class CornerSets {
  private:
   std::vector<int> parents_;
 };
-
-double doubled_area(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-double face_area(const Atlas& atlas, int face) {
-  const int first = atlas.face_offsets[face];
-  double sum = 0;
-  for (int c = first + 2; c < atlas.face_offsets[face + 1]; ++c) {
-    sum += doubled_area(atlas.corner_uvs[first], atlas.corner_uvs[c - 1], atlas.corner_uvs[c]);
-  }
-  return 0.5 * sum;
-}
 
 class Splitter {
  public:
@@ -101,7 +89,7 @@ class Splitter {
   void orient_charts() {
     std::vector<double> as_wound(chart_count(), 0), as_joined(chart_count(), 0);
     for (int f = 0; f < atlas_.face_count(); ++f) {
-      const double area = face_area(atlas_, f);
+      const double area = doubled_uv_area(atlas_, f);
       as_wound[face_charts_[f]] += area;
       as_joined[face_charts_[f]] += joins_.turned_faces[f] ? -area : area;
     }

@@ -22,8 +22,8 @@ Validity certify_charts(const std::vector<Chart>& charts);
 double gap_between_charts(const std::vector<Chart>& charts);
 
 /// For each chart the smallest distance, absolute, between a boundary vertex and a boundary edge of the same loop that face
-/// each other through the outside and whose distance along the boundary is at least `far_arc`. Sought up to a distance of
-/// `far_arc`; infinity where there is none.
-std::vector<double> gap_within_charts(const std::vector<Chart>& charts, double far_arc);
+/// each other through the outside and between which the boundary, measured on the surface, is at least `far_arc` long. Sought up
+/// to the distance `reach`; infinity where there is none.
+std::vector<double> gap_within_charts(const std::vector<Chart>& charts, double far_arc, double reach);
 
 }  // namespace atlas_refine

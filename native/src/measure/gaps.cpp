@@ -1,7 +1,9 @@
 // Smallest distances between and within charts.
-#include <cmath>
+#include <algorithm>
 #include <limits>
 
+#include "geometry/boundary.h"
+#include "geometry/box_tree.h"
 #include "geometry/predicates.h"
 #include "measure/boundary_edges.h"
 #include "measure/certificate.h"
@@ -12,73 +14,52 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Vec2 nearest_on_edge(const Vec2& p, const BoundaryEdge& edge) {
-  const Vec2 along = edge.to - edge.from;
-  const double squared = along.squaredNorm();
-  const double t = squared > 0 ? std::clamp((p - edge.from).dot(along) / squared, 0.0, 1.0) : 0;
-  return edge.from + t * along;
-}
+double distance(const Vec2& p, const BoundaryEdge& edge) { return closest_on_segment(p, edge.from, edge.to).distance; }
 
 double distance(const BoundaryEdge& a, const BoundaryEdge& b) {
   if (segments_touch(a.from, a.to, b.from, b.to)) return 0;
-  return std::min({(nearest_on_edge(a.from, b) - a.from).norm(), (nearest_on_edge(a.to, b) - a.to).norm(),
-                   (nearest_on_edge(b.from, a) - b.from).norm(), (nearest_on_edge(b.to, a) - b.to).norm()});
+  return std::min({distance(a.from, b), distance(a.to, b), distance(b.from, a), distance(b.to, a)});
 }
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+/// One boundary per chart set, with the positions it refers to.
+struct PlacedBoundary {
+  std::vector<Vec2> positions;
+  Boundary boundary;
 
-/// Whether `direction` leaves the corner between the boundary edges with directions `in` and `out` into the outside.
-bool leaves_outside(const Vec2& in, const Vec2& out, const Vec2& direction) {
-  const bool left_of_in = cross(in, direction) > 0, left_of_out = cross(out, direction) > 0;
-  const bool inside = cross(in, out) >= 0 ? left_of_in && left_of_out : left_of_in || left_of_out;
-  return !inside;
-}
-
-/// One boundary loop of a chart, with arc lengths.
-class LoopGap {
- public:
-  LoopGap(const BoundaryEdge* edges, int count, double far_arc) : edges_(edges), count_(count), far_arc_(far_arc) {
-    arcs_.assign(count + 1, 0);
-    for (int i = 0; i < count; ++i) arcs_[i + 1] = arcs_[i] + (edges[i].to - edges[i].from).norm();
+  explicit PlacedBoundary(const std::vector<Chart>& charts) {
+    std::vector<int> first_vertex;
+    for (const Chart& chart : charts) {
+      first_vertex.push_back(static_cast<int>(positions.size()));
+      positions.insert(positions.end(), chart.uvs.begin(), chart.uvs.end());
+    }
+    boundary = make_boundary(charts, first_vertex);
   }
 
-  double perimeter() const { return arcs_.back(); }
-
-  /// Distance from the start of edge i to edge j; infinity where they do not face each other or are near along the boundary.
-  double facing_distance(int i, int j) const {
-    const Vec2& p = edges_[i].from;
-    const Vec2 q = nearest_on_edge(p, edges_[j]);
-    const double arc = std::abs(arcs_[i] - arcs_[j] - (q - edges_[j].from).norm());
-    if (std::min(arc, perimeter() - arc) < far_arc_) return kInfinity;
-    if (!leaves_outside(direction(i - 1), direction(i), q - p)) return kInfinity;
-    const bool at_start = q == edges_[j].from, at_end = q == edges_[j].to;
-    const Vec2 in = direction(at_start ? j - 1 : j), out = direction(at_end ? j + 1 : j);
-    return leaves_outside(in, out, p - q) ? (q - p).norm() : kInfinity;
+  const Vec2& at(int point) const { return positions[boundary.vertex[point]]; }
+  Box edge_box(int edge) const {
+    const Vec2 &a = at(edge), &b = at(boundary.next[edge]);
+    return {a.cwiseMin(b), a.cwiseMax(b)};
   }
-
- private:
-  Vec2 direction(int i) const {
-    const BoundaryEdge& edge = edges_[(i + count_) % count_];
-    return edge.to - edge.from;
-  }
-
-  const BoundaryEdge* edges_;
-  int count_;
-  double far_arc_;
-  std::vector<double> arcs_;
 };
 
-double gap_within_loop(const std::vector<BoundaryEdge>& edges, double far_arc) {
-  const LoopGap loop(edges.data(), static_cast<int>(edges.size()), far_arc);
-  if (loop.perimeter() < 2 * far_arc) return kInfinity;
-  const BoxTree tree = tree_over(edges);
-  double radius = far_arc;
-  double best = kInfinity;
-  for (int i = 0; i < static_cast<int>(edges.size()); ++i) {
-    tree.visit_within({edges[i].from, edges[i].from}, radius, -1, [&](int j) {
-      const double d = loop.facing_distance(i, j);
-      if (d < radius || (d == radius && d < best)) best = radius = d;
-      return true;
+/// The loop is the range [first, end) of the boundary.
+double gap_within_loop(const PlacedBoundary& placed, int first, int end, double far_arc, double reach) {
+  const Boundary& boundary = placed.boundary;
+  if (boundary.loop_length[boundary.loop[first]] < 2 * far_arc) return kInfinity;
+  std::vector<Box> boxes;
+  for (int e = first; e < end; ++e) boxes.push_back(placed.edge_box(e));
+  const BoxTree tree(std::move(boxes), std::vector<int>(end - first, 0));
+  double best = kInfinity, radius = reach;
+  for (int point = first; point < end; ++point) {
+    const Vec2& p = placed.at(point);
+    tree.visit_within({p, p}, radius, -1, [&](int item) {
+      const int edge = first + item;
+      if (edge == point || boundary.next[edge] == point || boundary.arc_between(point, edge) < far_arc) return true;
+      const Closest closest = closest_on_segment(p, placed.at(edge), placed.at(boundary.next[edge]));
+      // Where borders touch there is no direction in which they could face each other.
+      const bool facing = closest.distance == 0 || faces_outside(boundary, placed.positions, {point, edge}, closest);
+      if (facing && closest.distance <= radius) best = radius = closest.distance;
+      return best > 0;
     });
   }
   return best;
@@ -100,14 +81,14 @@ double gap_between_charts(const std::vector<Chart>& charts) {
   return best;
 }
 
-std::vector<double> gap_within_charts(const std::vector<Chart>& charts, double far_arc) {
+std::vector<double> gap_within_charts(const std::vector<Chart>& charts, double far_arc, double reach) {
   std::vector<double> gaps(charts.size(), kInfinity);
-  const std::vector<BoundaryEdge> edges = boundary_edges(charts);
-  for (std::size_t first = 0, end = 0; first < edges.size(); first = end) {
-    const int chart = edges[first].chart;
-    while (end < edges.size() && edges[end].chart == chart && edges[end].loop == edges[first].loop) ++end;
-    const std::vector<BoundaryEdge> loop(edges.begin() + first, edges.begin() + end);
-    gaps[chart] = std::min(gaps[chart], gap_within_loop(loop, far_arc));
+  const PlacedBoundary placed(charts);
+  const Boundary& boundary = placed.boundary;
+  for (int first = 0, end = 0; first < boundary.size(); first = end) {
+    while (end < boundary.size() && boundary.loop[end] == boundary.loop[first]) ++end;
+    double& gap = gaps[boundary.chart[first]];
+    gap = std::min(gap, gap_within_loop(placed, first, end, far_arc, reach));
   }
   return gaps;
 }
