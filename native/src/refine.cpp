@@ -1,9 +1,107 @@
-// The whole method, top to bottom.
+// The whole method, top to bottom: charts, the least intervention that holds the bound, the certificate.
 #include "atlas_refine/refine.h"
 
+#include <cmath>
+
 #include "input/split_charts.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+#include "pack/place_charts.h"
+#include "reduce/density.h"
+#include "reduce/re_embed.h"
+#include "reduce/squeeze.h"
+#include "report/measure_atlas.h"
+#include "report/options.h"
+#include "report/outcome.h"
+#include "support/monitor.h"
+#include "support/parallel.h"
 
 namespace atlas_refine {
+namespace {
+
+/// One call of refine(): the state that its steps hand on.
+class Refinement {
+ public:
+  Refinement(const Atlas& atlas, const RefineOptions& options, Monitor& monitor, DebugSink* debug)
+      : atlas_(atlas), options_(options), monitor_(monitor), outcome_(atlas, options, monitor, debug), gap_(options.gap.value_or(Gap{})),
+        threads_(resolve_threads(options.threads)) {}
+
+  RefineResult run() {
+    outcome_.begin_stage("input", 0, 0.02);
+    ChartSet set = split_charts(atlas_);
+    require_no_defects(atlas_, set);
+    outcome_.measure_input(set);
+    if (holds_already(set)) return outcome_.unchanged(gap_);
+    charts_ = std::move(set.charts);
+    const bool own_layout = embed_overlapping() == 0 && certify_charts(charts_).valid();
+    outcome_.begin_stage("pack", 0.2, 0.25);
+    const bool scaled = set_density(charts_, options_.density);
+    const std::vector<Chart> placed = place_anew();
+    if (holds_placed(placed)) return outcome_.certified(Intervention::Moved, placed, gap_);
+    return squeezed(own_layout && !scaled, placed);
+  }
+
+ private:
+  bool gap_kept(const std::vector<Chart>& charts) const {
+    const Vec2 box = box_of_aspect(uv_box(charts), options_.box_aspect).size();
+    return gap_between_charts(charts) >= gap_.length(box);
+  }
+  double pe(const std::vector<Chart>& charts) const {
+    return uv_area(charts) / box_of_aspect(uv_box(charts), options_.box_aspect).area();
+  }
+  bool distortion_allowed(double distortion) const { return !options_.max_distortion || distortion <= *options_.max_distortion; }
+
+  /// Unchanged: the input is valid and at the bound; a gap counts only where one was asked for.
+  bool holds_already(const ChartSet& set) const {
+    const Measures& before = outcome_.before();
+    return before.pe_fixed_aspect >= options_.pe_bound && distortion_allowed(before.distortion) && validate_split(set).valid() &&
+           (!options_.gap || gap_kept(set.charts));
+  }
+
+  int embed_overlapping() {
+    outcome_.begin_stage("embed", 0.02, 0.2);
+    int count = 0;
+    for (int c = 0; c < static_cast<int>(charts_.size()); ++c) {
+      monitor_.report(static_cast<double>(c) / charts_.size());
+      const Validity own = certify_charts({charts_[c]});
+      if (own.valid()) continue;
+      charts_[c] = re_embed(charts_[c], c, threads_, monitor_);
+      outcome_.re_embedded(c, own);
+      ++count;
+    }
+    return count;
+  }
+
+  std::vector<Chart> place_anew() {
+    const PlaceOptions place{gap_, options_.box_aspect, options_.pe_bound, options_.seed, threads_};
+    std::vector<Chart> placed = place_charts(charts_, place, monitor_);
+    outcome_.show("placed", placed);
+    return placed;
+  }
+
+  bool holds_placed(const std::vector<Chart>& placed) const {
+    return pe(placed) >= options_.pe_bound && distortion_allowed(dirichlet_sums(placed).best_energy());
+  }
+
+  RefineResult squeezed(bool own_layout, const std::vector<Chart>& placed) {
+    outcome_.begin_stage("squeeze", 0.25, 0.95);
+    std::vector<std::vector<Chart>> starts = {placed};
+    if (own_layout && gap_kept(charts_)) starts.push_back(charts_);
+    Squeezed best = squeeze(starts, squeeze_options(options_, threads_), monitor_);
+    outcome_.squeezed(best);
+    return outcome_.certified(Intervention::Squeezed, best.charts, best.gap);
+  }
+
+  const Atlas& atlas_;
+  const RefineOptions& options_;
+  Monitor& monitor_;
+  Outcome outcome_;
+  Gap gap_;
+  int threads_;
+  std::vector<Chart> charts_;
+};
+
+}  // namespace
 
 const char* version() { return ATLAS_REFINE_VERSION; }
 
@@ -16,13 +114,10 @@ const char* to_string(Intervention intervention) {
   return "unknown";
 }
 
-RefineResult refine(const Atlas& atlas, const RefineOptions& options, const ProgressFn&, DebugSink*) {
+RefineResult refine(const Atlas& atlas, const RefineOptions& options, const ProgressFn& progress, DebugSink* debug) {
+  check_options(options);
   RefineResult result;
-  result.before = measure(atlas, options.box_aspect);
-  result.after = result.before;
-  result.corner_uvs = atlas.corner_uvs;
-  result.bound_met = validate(atlas).valid() && result.before.pe_fixed_aspect >= options.pe_bound;
-  if (!result.bound_met) throw RefineError(ErrorCode::BoundNotReached, "squeeze", "the bound was not reached");
+  run_monitored(progress, [&](Monitor& monitor) { result = Refinement(atlas, options, monitor, debug).run(); });
   return result;
 }
 

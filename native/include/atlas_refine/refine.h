@@ -33,6 +33,9 @@ struct Gap {
   enum class Unit { BoxDiagonal, LongSide };
   double value = 0.0025;             ///< fraction of the unit, in [0, 0.1]
   Unit unit = Unit::BoxDiagonal;     ///< the paper's padding unit; LongSide fits "N texels of a texture of S": N / S
+
+  /// Absolute length for a box of these sides.
+  double length(const Vec2& box) const { return value * (unit == Unit::BoxDiagonal ? box.norm() : box.maxCoeff()); }
 };
 
 struct RefineOptions {

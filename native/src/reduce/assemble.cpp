@@ -49,7 +49,7 @@ void ReduceSystem::ensure_pattern(const ReduceState& state, const std::vector<Co
     edges.emplace_back(boundary_.vertex[pair.point], boundary_.vertex[boundary_.next[pair.edge]]);
   };
   for (const Contact& contact : contacts) add(contact.pair);
-  for (const PointEdge& pair : near_pairs(boundary_, state.x, {}, kPatternReach * (gap_length(gap_, state.box) + range_))) {
+  for (const PointEdge& pair : near_pairs(boundary_, state.x, {}, kPatternReach * (gap_.length(state.box) + range_))) {
     const Closest closest = closest_on_segment(state.x[boundary_.vertex[pair.point]], state.x[boundary_.vertex[pair.edge]],
                                                state.x[boundary_.vertex[boundary_.next[pair.edge]]]);
     if (boundary_.chart[pair.point] != boundary_.chart[pair.edge] || faces_outside(boundary_, state.x, pair, closest)) add(pair);

@@ -39,10 +39,7 @@ class Reduction {
     ReduceStatus status = ReduceStatus::OutOfTime;
     keep_if_best();
     for (iteration_ = 0; iteration_ < problem_.max_iterations; ++iteration_) {
-      if (monitor_ && !monitor_({iteration_, pe_, energy_, price_, fraction_})) {
-        status = ReduceStatus::Cancelled;
-        break;
-      }
+      if (monitor_) monitor_({iteration_, pe_, energy_, price_, fraction_});
       if (finished(status)) break;
       const double energy_before = energy_, pe_before = pe_;
       if (!compute_step()) {
@@ -69,10 +66,14 @@ class Reduction {
   bool finished(ReduceStatus& status) const {
     if (holds_bound() && calm_ >= 2) status = ReduceStatus::Converged;
     else if (holds_bound() && problem_.enough_distortion > 0 && energy_ <= problem_.enough_distortion) status = ReduceStatus::Converged;
+    else if (distorted_ >= 4) status = ReduceStatus::TooDistorted;
+    else if (!holds_bound() && problem_.max_price > 0 && expensive_ >= 3) status = ReduceStatus::TooExpensive;
     else if (idle_ >= kStallIterations) status = ReduceStatus::Stalled;
     else return false;
     return true;
   }
+
+  bool within_distortion() const { return problem_.max_distortion == 0 || energy_ <= problem_.max_distortion; }
 
   /// Solves for the step and its price; raises the damping until the matrix is positive definite.
   bool compute_step() {
@@ -90,7 +91,9 @@ class Reduction {
     if (!bounded()) return true;
     std::vector<Vec2> climb = system_.pe_gradient;
     system_.matrix.solve(climb);
-    const double wanted = std::min(kClimb, deficit()) - dot(system_.pe_gradient, step_);
+    // Too distorted: hold the PE and relax before climbing on.
+    const double climb_limit = within_distortion() ? kClimb : 0;
+    const double wanted = std::min(climb_limit, deficit()) - dot(system_.pe_gradient, step_);
     price_ = std::max(0.0, wanted / dot(system_.pe_gradient, climb));
     for (std::size_t i = 0; i < step_.size(); ++i) step_[i] += price_ * climb[i];
     return true;
@@ -138,11 +141,14 @@ class Reduction {
     const bool on_target = !bounded() || (std::abs(deficit()) < 1e-4 || (holds_bound() && price_ == 0));
     const bool quiet = std::abs(energy_ - energy_before) < kConverged * (energy_ - 1) && fraction_ > 0.1;
     calm_ = on_target && quiet ? calm_ + 1 : 0;
+    expensive_ = price_ > problem_.max_price ? expensive_ + 1 : 0;
+    distorted_ = !within_distortion() && quiet ? distorted_ + 1 : 0;
     const bool moved = std::abs(energy_ - energy_before) > 1e-5 * (energy_ - 1) || pe_ - pe_before > 1e-5 * pe_;
     idle_ = moved ? 0 : idle_ + 1;
   }
 
   void keep_if_best() {
+    if (!within_distortion()) return;
     const bool holds = holds_bound();
     if (holds && !best_holds_) best_energy_ = std::numeric_limits<double>::infinity();
     const bool better = holds ? energy_ < best_energy_ : !best_holds_ && pe_ > best_pe_;
@@ -175,7 +181,7 @@ class Reduction {
   double stiffness_ = 0, damping_ = 1e-3;
   double best_energy_ = std::numeric_limits<double>::infinity(), best_pe_ = -1, best_price_ = 0;
   bool best_holds_ = false;
-  int iteration_ = 0, calm_ = 0, idle_ = 0;
+  int iteration_ = 0, calm_ = 0, idle_ = 0, expensive_ = 0, distorted_ = 0;
 };
 
 }  // namespace

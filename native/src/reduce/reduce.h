@@ -10,9 +10,6 @@
 
 namespace atlas_refine {
 
-/// Absolute gap for a box of the given sides.
-double gap_length(const Gap& gap, const Vec2& box_size);
-
 struct ReduceProblem {
   const std::vector<Chart>& charts;  ///< placed, free of flips and crossings; the start
   Gap gap;                           ///< smallest distance between charts; within a chart the same, or the start's own if less
@@ -20,6 +17,7 @@ struct ReduceProblem {
   double pe_target = 0;              ///< in (0, 1), below or above the present PE; 0 = no box: least distortion in open space
   double enough_distortion = 0;      ///< stop as soon as the bound holds and E_d is at most this; 0 = go to the optimum
   double max_distortion = 0;         ///< give up the climb once the cheapest E_d at the present PE exceeds this; 0 = no limit
+  double max_price = 0;              ///< give up the climb where lambda exceeds this below the target; 0 = no limit
   int max_iterations = 600;
   int threads = 1;
 };
@@ -28,8 +26,8 @@ enum class ReduceStatus {
   Converged,     ///< the target holds and E_d is at its optimum there
   Stalled,       ///< no further progress; `reached` tells whether the target holds
   TooDistorted,  ///< max_distortion was met before the target
+  TooExpensive,  ///< max_price was met before the target
   OutOfTime,     ///< max_iterations
-  Cancelled,     ///< the monitor asked to stop; the best state so far is returned
 };
 
 struct ReduceProgress {
@@ -39,8 +37,8 @@ struct ReduceProgress {
   double price;
   double fraction;  ///< of the Newton step that was taken
 };
-/// False = stop.
-using ReduceMonitor = std::function<bool(const ReduceProgress&)>;
+/// Called before every iteration; may throw to cancel.
+using ReduceMonitor = std::function<void(const ReduceProgress&)>;
 
 struct ReduceResult {
   std::vector<std::vector<Vec2>> uvs;  ///< one array per chart, in the start's units

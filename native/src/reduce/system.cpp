@@ -38,10 +38,6 @@ Vec2 size_of_aspect(const Vec2& size, double aspect) {
 
 }  // namespace
 
-double gap_length(const Gap& gap, const Vec2& box_size) {
-  return gap.value * (gap.unit == Gap::Unit::BoxDiagonal ? box_size.norm() : box_size.maxCoeff());
-}
-
 ReduceSystem::ReduceSystem(const ReduceProblem& problem)
     : gap_(problem.gap), aspect_(problem.box_aspect), has_box_(problem.pe_target > 0), threads_(problem.threads) {
   double surface = 0;

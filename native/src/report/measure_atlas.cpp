@@ -1,7 +1,7 @@
 // The public measure() and validate(): the atlas is split into charts, the charts are measured where they lie.
+#include "report/measure_atlas.h"
+
 #include "atlas_refine/error.h"
-#include "atlas_refine/measures.h"
-#include "input/split_charts.h"
 #include "measure/certificate.h"
 #include "measure/metrics.h"
 
@@ -28,7 +28,10 @@ std::string describe(const FaceDefect& defect) {
 Measures measure(const Atlas& atlas, double box_aspect) {
   if (!(box_aspect >= 0) || box_aspect > 1e6)
     throw RefineError(ErrorCode::BadOption, "measure", "box aspect must be 0 (free) or positive");
-  const ChartSet set = split_charts(atlas);
+  return measure_split(atlas, split_charts(atlas), box_aspect);
+}
+
+Measures measure_split(const Atlas& atlas, const ChartSet& set, double box_aspect) {
   Measures measures = measure_charts(charts_as_placed(set), box_aspect);
   measures.seam_edges = set.seam_edges;
   const double diagonal = bounding_box_diagonal(atlas);
@@ -36,8 +39,9 @@ Measures measure(const Atlas& atlas, double box_aspect) {
   return measures;
 }
 
-Validity validate(const Atlas& atlas) {
-  const ChartSet set = split_charts(atlas);
+Validity validate(const Atlas& atlas) { return validate_split(split_charts(atlas)); }
+
+Validity validate_split(const ChartSet& set) {
   Validity validity = certify_charts(charts_as_placed(set));
   // Faces count here, and an n-gon counts where its outline crosses itself though some triangulation of it were positive.
   validity.flipped_faces = static_cast<int>(set.defects.size());

@@ -1,0 +1,45 @@
+// Ranges of the options, and the ladder of automatic gaps.
+#include "report/options.h"
+
+#include <cmath>
+
+namespace atlas_refine {
+namespace {
+
+// An automatic gap is given up for a smaller one where one more per cent of PE costs more than this per cent of E_d.
+constexpr double kDearestPrice = 3;
+constexpr double kGapStep = 0.6;
+constexpr int kGapSteps = 8;
+
+void require(bool holds, const char* what) {
+  if (!holds) throw RefineError(ErrorCode::BadOption, "options", what);
+}
+
+}  // namespace
+
+void check_options(const RefineOptions& options) {
+  require(options.pe_bound > 0 && options.pe_bound < 1, "the packing efficiency bound must lie between 0 and 1, both excluded");
+  require(options.box_aspect == 0 || (options.box_aspect >= 1e-3 && options.box_aspect <= 1e3),
+          "the box aspect must be 0 (free) or lie in [0.001, 1000]");
+  require(!options.gap || (options.gap->value >= 0 && options.gap->value <= 0.1), "the gap must lie in [0, 0.1] of the box");
+  require(!options.max_distortion || (*options.max_distortion >= 1 && std::isfinite(*options.max_distortion)),
+          "the largest distortion must be a finite number of at least 1");
+  require(options.threads >= 0 && options.threads <= 1024, "the number of threads must lie in [0, 1024]");
+}
+
+SqueezeOptions squeeze_options(const RefineOptions& options, int threads) {
+  SqueezeOptions squeeze{.pe_bound = options.pe_bound,
+                         .box_aspect = options.box_aspect,
+                         .gaps = {options.gap.value_or(Gap{})},
+                         .max_distortion = options.max_distortion.value_or(0),
+                         .max_price = kDearestPrice,
+                         .threads = threads};
+  for (int k = 0; !options.gap && k < kGapSteps; ++k) {
+    Gap smaller = squeeze.gaps.back();
+    smaller.value *= kGapStep;
+    squeeze.gaps.push_back(smaller);
+  }
+  return squeeze;
+}
+
+}  // namespace atlas_refine

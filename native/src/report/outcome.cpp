@@ -1,0 +1,163 @@
+// The result of one call, and the certificate without which none leaves the library.
+#include "report/outcome.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "input/check_atlas.h"
+#include "measure/distortion.h"
+#include "measure/metrics.h"
+#include "measure/snapshot.h"
+#include "report/measure_atlas.h"
+
+namespace atlas_refine {
+namespace {
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+}  // namespace
+
+Outcome::Outcome(const Atlas& atlas, const RefineOptions& options, Monitor& monitor, DebugSink* debug)
+    : atlas_(atlas), options_(options), monitor_(monitor), debug_(debug) {}
+
+void Outcome::begin_stage(const std::string& stage, double from, double to) {
+  end_stage();
+  monitor_.begin_stage(stage, from, to);
+  stage_ = stage;
+  stage_start_ = std::chrono::steady_clock::now();
+}
+
+void Outcome::end_stage() {
+  if (stage_.empty()) return;
+  result_.timings.push_back({stage_, std::chrono::duration<double>(std::chrono::steady_clock::now() - stage_start_).count()});
+  stage_.clear();
+}
+
+void Outcome::measure_input(const ChartSet& set) {
+  corners_ = set.corners;
+  input_charts_ = set.charts;
+  result_.before = measure_split(atlas_, set, options_.box_aspect);
+  for (std::size_t c = 0; c < input_charts_.size(); ++c) {
+    ChartReport chart;
+    std::vector<int> faces = input_charts_[c].triangle_faces;
+    std::sort(faces.begin(), faces.end());
+    chart.faces = static_cast<int>(std::unique(faces.begin(), faces.end()) - faces.begin());
+    chart.mirrored = set.mirrored[c];
+    chart.distortion_before = dirichlet_sums(input_charts_[c]).best_energy();
+    result_.charts.push_back(chart);
+    if (chart.mirrored) result_.repairs.push_back("chart " + std::to_string(c) + ": mirrored, turned over");
+  }
+  show("input", charts_as_placed(set));
+}
+
+void Outcome::re_embedded(int chart, const Validity& why) {
+  result_.charts[chart].re_embedded = true;
+  result_.repairs.push_back("chart " + std::to_string(chart) + ": embedded anew, for " + why.problem);
+}
+
+void Outcome::squeezed(const Squeezed& squeezed) {
+  result_.price = squeezed.outcome.price;
+  result_.iterations += squeezed.iterations;
+  if (!options_.gap && squeezed.gap.value < Gap{}.value) {
+    result_.warnings.push_back("the gap was reduced from " + number("%g", Gap{}.value) + " to " + number("%g", squeezed.gap.value) +
+                               " of the box diagonal: the bound does not leave more");
+  }
+}
+
+void Outcome::show(const std::string& stage, const std::vector<Chart>& charts) {
+  if (!debug_) return;
+  const Measures measures = measure_charts(charts, options_.box_aspect);
+  const std::string caption = "PE " + number("%.1f %%", 100 * measures.pe_fixed_aspect) + ", E_d " + number("%.4f", measures.distortion);
+  debug_->receive(make_snapshot(stage, caption, charts, box_of_aspect(uv_box(charts), options_.box_aspect)));
+}
+
+RefineResult Outcome::unchanged(const Gap& gap) {
+  end_stage();
+  result_.intervention = Intervention::Unchanged;
+  result_.corner_uvs = atlas_.corner_uvs;
+  result_.bound_met = true;
+  result_.after = result_.before;
+  // An automatic gap asks nothing of an atlas that is left as it is.
+  result_.gap = gap;
+  if (!options_.gap) result_.gap.value = std::min(gap.value, result_.before.gap_between);
+  report_charts(input_charts_);
+  return result_;
+}
+
+RefineResult Outcome::certified(Intervention intervention, const std::vector<Chart>& charts, const Gap& gap) {
+  begin_stage("certify", 0.95, 1);
+  result_.intervention = intervention;
+  result_.gap = gap;
+  Atlas output = atlas_;
+  output.corner_uvs = stored_uvs(charts);
+  const ChartSet set = split_charts(output);
+  result_.after = measure_split(output, set, options_.box_aspect);
+  require_certificate(set, gap);
+  require_bound();
+  // The same triangles in the same order as the input's charts: only then can E_2 be told.
+  std::vector<Chart> stored = input_charts_;
+  for (int c = 0; c < output.corner_count(); ++c) stored[corners_[c].chart].uvs[corners_[c].vertex] = output.corner_uvs[c];
+  result_.after.distortion_to_input = dirichlet_sums_between(input_charts_, stored).best_energy();
+  report_charts(stored);
+  show(to_string(intervention), stored);
+  result_.corner_uvs = std::move(output.corner_uvs);
+  end_stage();
+  return result_;
+}
+
+std::vector<Vec2> Outcome::stored_uvs(const std::vector<Chart>& charts) const {
+  const Box box = box_of_aspect(uv_box(charts), options_.box_aspect);
+  const double scale = 1 / box.size().maxCoeff();
+  std::vector<Vec2> uvs;
+  uvs.reserve(corners_.size());
+  for (const CornerRef& corner : corners_) {
+    Vec2 uv = scale * (charts[corner.chart].uvs[corner.vertex] - box.min);
+    if (options_.stored == Stored::Float32) uv = uv.cast<float>().cast<double>();
+    uvs.push_back(uv);
+  }
+  return uvs;
+}
+
+void Outcome::require_certificate(const ChartSet& output, const Gap& gap) {
+  const auto refuse = [&](const std::string& why, int chart, int face) {
+    throw RefineError(ErrorCode::NotCertified, "certify", message_prefix(atlas_) + "the result was withheld: " + why, chart, face);
+  };
+  const Validity validity = validate_split(output);
+  if (!validity.valid()) refuse(validity.problem, validity.chart, validity.face);
+  if (result_.after.seam_edges != result_.before.seam_edges || result_.after.chart_count != result_.before.chart_count) {
+    refuse("its seams differ from the input's", -1, -1);
+  }
+  const Vec2 box(result_.after.box_width, result_.after.box_height);
+  const Vec2 whole = box_of_aspect({Vec2::Zero(), box}, options_.box_aspect).size();
+  if (result_.after.gap_between * box.norm() < gap.length(whole)) {
+    refuse("two charts are nearer than the gap of " + number("%g", gap.value), -1, -1);
+  }
+}
+
+void Outcome::require_bound() {
+  const bool allowed = !options_.max_distortion || options_.density == Density::Keep ||
+                       result_.after.distortion <= *options_.max_distortion * (1 + 1e-9);
+  result_.bound_met = result_.after.pe_fixed_aspect >= options_.pe_bound && allowed;
+  if (result_.bound_met || options_.best_effort) return;
+  std::string message = message_prefix(atlas_) + "the bound " + number("%g", options_.pe_bound) + " was not reached";
+  if (options_.max_distortion) message += " within a distortion of " + number("%g", *options_.max_distortion);
+  message += "; the best packing efficiency found is " + number("%.4f", result_.after.pe_fixed_aspect) + " at E_d " +
+             number("%.4f", result_.after.distortion);
+  throw RefineError(ErrorCode::BoundNotReached, "squeeze", message);
+}
+
+void Outcome::report_charts(const std::vector<Chart>& charts) {
+  const double scale = dirichlet_sums(charts).best_scale();
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    const std::vector<double> stretch = triangle_stretch(charts[c], scale);
+    result_.charts[c].stretch_max = *std::max_element(stretch.begin(), stretch.end());
+    result_.charts[c].distortion_after = dirichlet_sums(charts[c]).best_energy();
+  }
+}
+
+}  // namespace atlas_refine

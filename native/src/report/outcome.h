@@ -1,0 +1,51 @@
+// Gathers the result of one call: measures, timings, repairs; stores and certifies the UVs.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "atlas_refine/refine.h"
+#include "input/split_charts.h"
+#include "reduce/squeeze.h"
+#include "support/monitor.h"
+
+namespace atlas_refine {
+
+class Outcome {
+ public:
+  Outcome(const Atlas& atlas, const RefineOptions& options, Monitor& monitor, DebugSink* debug);
+
+  void begin_stage(const std::string& stage, double from, double to);
+  void measure_input(const ChartSet& set);
+  const Measures& before() const { return result_.before; }
+  void re_embedded(int chart, const Validity& why);
+  void squeezed(const Squeezed& squeezed);
+  /// Hands the charts to the debug sink, where there is one.
+  void show(const std::string& stage, const std::vector<Chart>& charts);
+
+  /// The input's own values.
+  RefineResult unchanged(const Gap& gap);
+  /// The charts' UVs, scaled into the unit square and rounded as they will be stored, after the exact certificate on just those
+  /// values. Throws BoundNotReached (unless best effort) or NotCertified.
+  RefineResult certified(Intervention intervention, const std::vector<Chart>& charts, const Gap& gap);
+
+ private:
+  void end_stage();
+  std::vector<Vec2> stored_uvs(const std::vector<Chart>& charts) const;
+  void require_certificate(const ChartSet& output, const Gap& gap);
+  void require_bound();
+  void report_charts(const std::vector<Chart>& charts);
+
+  const Atlas& atlas_;
+  const RefineOptions& options_;
+  Monitor& monitor_;
+  DebugSink* debug_;
+  RefineResult result_;
+  std::vector<CornerRef> corners_;
+  std::vector<Chart> input_charts_;  // turned over where mirrored
+  std::string stage_;
+  std::chrono::steady_clock::time_point stage_start_;
+};
+
+}  // namespace atlas_refine
