@@ -156,9 +156,12 @@ def test_folder_without_permission(program, tmp_path, good):
     program.refused(2, good, "-o", folder / "out.obj")
 
 
-def test_bound_out_of_reach_writes_nothing(program, good, tmp_path, old_output):
-    message = program.refused(4, good, "-o", old_output, "--pe-bound", "0.99", "--max-distortion", "1", "--report", tmp_path / "r.json")
-    assert "0." in message
+def test_bound_out_of_reach_writes_nothing(program, tmp_path, old_output):
+    """A triangle fills half of any box."""
+    path = tmp_path / "in.obj"
+    path.write_text(QUAD + "f 1/1 2/2 3/3\n")
+    message = program.refused(4, path, "-o", old_output, "--report", tmp_path / "r.json")
+    assert "0.5" in message
 
 
 def test_help_and_version(program):

@@ -1,0 +1,250 @@
+"""The checker itself: it accepts good atlases and finds each kind of defect."""
+
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import check_atlas
+import pytest
+
+SHEET = 3  # quads along a side of a sheet
+
+
+def sheet(u0, v0, side, place=0.0, turn_deg=0.0, removed=()):
+    """A flat square sheet of quads, UVs in a square from (u0, v0); `removed` quads leave holes."""
+    n, c, s = SHEET + 1, math.cos(math.radians(turn_deg)), math.sin(math.radians(turn_deg))
+    grid = [(i / SHEET, j / SHEET) for j in range(n) for i in range(n)]
+    positions = [(x + place, y, 0.0) for x, y in grid]
+    uvs = [(u0 + side * (c * x - s * y), v0 + side * (s * x + c * y)) for x, y in grid]
+    quads = [(j * n + i, j * n + i + 1, (j + 1) * n + i + 1, (j + 1) * n + i) for j in range(SHEET) for i in range(SHEET)]
+    return positions, uvs, [q for k, q in enumerate(quads) if k not in removed]
+
+
+def text_of(*charts):
+    lines, base = ["mtllib a.mtl"], 1
+    for k, (positions, uvs, faces) in enumerate(charts):
+        lines += [f"g chart{k}", f"usemtl m{k}"]
+        lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in positions]
+        lines += [f"vt {float(u)!r} {float(v)!r}" for u, v in uvs]
+        lines += ["f " + " ".join(f"{base + i}/{base + i}" for i in face) for face in faces]
+        base += len(positions)
+    return "\n".join(lines) + "\n"
+
+
+def mesh(uvs, faces, positions=None):
+    return positions or [(float(u), float(v), 0.1 * k * k) for k, (u, v) in enumerate(uvs)], uvs, faces
+
+
+def check(tmp_path, before, after, **options):
+    (tmp_path / "in.obj").write_text(before)
+    (tmp_path / "out.obj").write_text(after)
+    return check_atlas.check(tmp_path / "in.obj", tmp_path / "out.obj", **options)
+
+
+def problems(tmp_path, after, before=None, **options):
+    found = check(tmp_path, before or after, after, **options)
+    assert found["ok"] == (not found["problems"])
+    return " | ".join(found["problems"])
+
+
+GOOD = text_of(sheet(0, 0, 0.4), sheet(0.6, 0, 0.4, place=2.0))
+
+
+def test_good_atlas(tmp_path):
+    found = check(tmp_path, GOOD, GOOD, pe_bound=0.8, gap=0.18)
+    assert found["problems"] == []
+    assert (found["charts"], found["added_seams"], found["flipped"], found["contacts"]) == (2, 0, 0, 0)
+    assert found["pe"] == pytest.approx(0.8)
+    assert found["gap"] == pytest.approx(0.2 / math.hypot(1, 0.4))
+    assert found["e_d"] == pytest.approx(1)
+
+
+def test_moved_atlas_is_good(tmp_path):
+    moved = text_of(sheet(0.1, 0.1, 0.3, turn_deg=20), sheet(0.6, 0.2, 0.3, place=2.0))
+    assert problems(tmp_path, moved, GOOD) == ""
+
+
+def test_missed_bound(tmp_path):
+    assert problems(tmp_path, GOOD, pe_bound=0.81).startswith("PE: 0.8")
+    assert problems(tmp_path, GOOD, pe_bound=0.5, aspect=1.0).startswith("PE: 0.32")
+
+
+def test_missed_gap(tmp_path):
+    assert problems(tmp_path, GOOD, gap=0.2).startswith("gap: 0.185")
+    assert problems(tmp_path, GOOD, gap=0.2, gap_unit="long_side") == ""
+
+
+def test_gap_far_larger_than_an_edge(tmp_path):
+    far = text_of(sheet(0, 0, 0.01), sheet(0.9, 0.3, 0.01, place=2.0))
+    assert check(tmp_path, far, far)["gap"] == pytest.approx(math.hypot(0.89, 0.29) / math.hypot(0.91, 0.31))
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("v 2.0 0.0 0.0", "v 2.0 0.0 1e-9"),
+        ("usemtl m1", "usemtl m0"),
+        ("g chart1", "g chart"),
+        ("f 1/1 2/2 6/6 5/5\nf 2/2 3/3 7/7 6/6", "f 2/2 3/3 7/7 6/6\nf 1/1 2/2 6/6 5/5"),
+        ("f 1/1 2/2 6/6 5/5", "f 2/2 6/6 5/5 1/1"),
+        ("f 1/1 2/2 6/6 5/5", "f 1/1 2/2 6/6\nf 1/1 6/6 5/5"),
+        ("mtllib a.mtl\n", ""),
+    ],
+)
+def test_changed_file(tmp_path, old, new):
+    assert GOOD.count(old) == 1
+    assert problems(tmp_path, GOOD.replace(old, new), GOOD).startswith("file:")
+
+
+def test_new_seam(tmp_path):
+    torn = GOOD.replace("f 1/1 2/2 6/6 5/5", "f 1/1 2/33 6/6 5/5") + "vt 0.13 0.0\n"
+    found = check(tmp_path, GOOD, torn)
+    assert found["added_seams"] == 1
+    assert "seams: 1 added" in found["problems"][0]
+
+
+def test_closed_seam(tmp_path):
+    torn = GOOD.replace("f 1/1 2/2 6/6 5/5", "f 1/1 2/33 6/6 5/5") + "vt 0.13 0.0\n"
+    assert "seams: 1 removed" in problems(tmp_path, GOOD, torn)
+
+
+def test_doubled_vertices_are_no_seam(tmp_path):
+    """Vertices doubled for the sake of normals keep the chart whole: positions and UVs count."""
+    uvs = [(0, 0), (1, 0), (1, 1), (0, 1), (1, 0), (2, 0), (2, 1), (1, 1)]
+    doubled = text_of(mesh(uvs, [(0, 1, 2, 3), (4, 5, 6, 7)], [(float(u), float(v), 0.0) for u, v in uvs]))
+    found = check(tmp_path, doubled, doubled)
+    assert (found["problems"], found["charts"], found["seams"]) == ([], 1, 0)
+    torn = doubled.replace("vt 1.0 1.0\nvt 0.0 1.0", "vt 0.9 1.0\nvt 0.0 1.0")
+    assert "seams: 1 added" in problems(tmp_path, torn, doubled)
+
+
+def test_flipped_triangle(tmp_path):
+    good = mesh([(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 0.5)], [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)])
+    bad = (good[0], [*good[1][:4], (0.5, -0.1)], good[2])
+    assert "flipped or flat: 1 faces, first 0" in problems(tmp_path, text_of(bad), text_of(good))
+
+
+def test_mirrored_chart(tmp_path):
+    positions, uvs, faces = sheet(0, 0, 1)
+    assert "flipped" in problems(tmp_path, text_of((positions, [(-u, v) for u, v in uvs], faces)))
+
+
+def test_flat_triangle_of_exactly_zero_area(tmp_path):
+    flat = mesh([(0.1, 0.1), (0.3, 0.3), (0.5, 0.5), (0.0, 1.0)], [(0, 1, 2), (0, 2, 3)])
+    assert "flipped or flat: 1" in problems(tmp_path, text_of(flat))
+
+
+def test_area_of_one_rounding_step_is_positive(tmp_path):
+    """1e-17 of area, which floating point cannot tell from zero: one way valid, the other way flipped."""
+    thin = [(0.0, 0.0), (1.0, 1.0), (0.5, math.nextafter(0.5, 1))]
+    assert problems(tmp_path, text_of(mesh(thin, [(0, 1, 2)]))) == ""
+    thin[2] = (0.5, math.nextafter(0.5, 0))
+    assert "flipped" in problems(tmp_path, text_of(mesh(thin, [(0, 1, 2)])))
+
+
+def test_polygon_that_is_not_convex_is_good(tmp_path):
+    dart = [(0.0, 0.0), (1.0, 0.0), (0.25, 0.25), (0.0, 1.0)]
+    for turn in range(4):
+        assert problems(tmp_path, text_of(mesh(dart, [tuple((k + turn) % 4 for k in range(4))]))) == ""
+
+
+def test_polygon_that_crosses_itself(tmp_path):
+    bow = [(0.0, 0.0), (1.0, 0.0), (0.2, 1.0), (1.0, 1.0)]
+    assert "flipped" in problems(tmp_path, text_of(mesh(bow, [(0, 1, 2, 3)])))
+
+
+def test_face_wound_against_its_chart_is_good(tmp_path):
+    quads = mesh([(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (0, 1)], [(0, 1, 4, 5), (3, 2, 1, 4)])
+    found = check(tmp_path, text_of(quads), text_of(quads))
+    assert found["problems"] == []
+    assert (found["charts"], found["pe"]) == (1, pytest.approx(1))
+
+
+def test_charts_that_cross(tmp_path):
+    assert "borders" in problems(tmp_path, text_of(sheet(0, 0, 0.4), sheet(0.3, 0.1, 0.4, place=2.0)))
+
+
+def test_charts_that_touch_at_a_corner(tmp_path):
+    touching = text_of(sheet(0, 0, 0.5), sheet(0.5, 0.5, 0.5, place=2.0))
+    assert "borders" in problems(tmp_path, touching)
+
+
+def test_corner_that_touches_a_side(tmp_path):
+    """The tip lies on the side exactly, one rounding step away, one step beyond."""
+    square = mesh([(0.0, 0.0), (0.5, 0.0), (0.5, 1.0), (0.0, 1.0)], [(0, 1, 2, 3)])
+
+    def with_tip(x):
+        tip = mesh([(x, 0.3), (1.0, 0.0), (1.0, 0.9)], [(0, 1, 2)], [(3.0, 0, 0), (4.0, 0, 0), (4.0, 1, 0)])
+        return problems(tmp_path, text_of(square, tip))
+
+    assert "borders" in with_tip(0.5)
+    assert "borders" in with_tip(math.nextafter(0.5, 0))
+    assert with_tip(math.nextafter(0.5, 1)) == ""
+
+
+def test_border_that_folds_back_on_itself(tmp_path):
+    straight = mesh([(0.0, 0.0), (2.0, 0.0), (1.0, 0.0), (1.0, 1.0)], [(0, 2, 3), (2, 1, 3)])
+    assert problems(tmp_path, text_of(straight)) == ""
+    slit = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 0.5), (1.0, 1.0), (0.0, 1.0)]
+    faces = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (4, 5, 6), (4, 6, 0)]
+    assert "borders" in problems(tmp_path, text_of(mesh(slit, faces)))
+
+
+def test_chart_that_touches_itself(tmp_path):
+    """Two corners of one chart at one point, though its faces meet nowhere near."""
+    apart = mesh([(0, 0), (3, 0), (3, 3), (2, 1), (1, 1), (0, 3)], [(0, 1, 3, 4), (1, 2, 3), (0, 4, 5)])
+    assert problems(tmp_path, text_of(apart)) == ""
+    touching = (apart[0], [(0, 0), (3, 0), (1.5, 3), (2, 1), (1, 1), (1.5, 3)], apart[2])
+    assert "borders" in problems(tmp_path, text_of(touching), text_of(apart))
+
+
+def test_chart_inside_a_chart(tmp_path):
+    assert "borders: 1 loops lie inside" in problems(tmp_path, text_of(sheet(0, 0, 1), sheet(0.4, 0.4, 0.1, place=2.0)))
+
+
+def test_chart_inside_a_hole_is_good(tmp_path):
+    ring = sheet(0, 0, 1, removed=(4,))
+    assert problems(tmp_path, text_of(ring, sheet(0.4, 0.4, 0.2, place=2.0))) == ""
+
+
+def test_two_charts_one_above_the_other(tmp_path):
+    ring = sheet(0, 0, 1, removed=(4,))
+    assert "borders" in problems(tmp_path, text_of(ring, sheet(0.45, 0.45, 0.1, place=2.0), sheet(0.46, 0.46, 0.02, place=4.0)))
+
+
+def test_distortion_of_a_stretched_sheet(tmp_path):
+    positions, uvs, faces = sheet(0, 0, 1)
+    found = check(tmp_path, GOOD, GOOD)
+    assert found["e_d_in"] == pytest.approx(1)
+    stretched = text_of((positions, [(2 * u, v) for u, v in uvs], faces))
+    found = check(tmp_path, stretched, stretched)
+    assert found["e_d"] == pytest.approx(1.25)
+    assert found["stretch_max"] == pytest.approx(math.sqrt(2))
+
+
+def test_contacts_agree_with_brute_force(tmp_path):
+    """Two overlapping sheets at every angle: the grid misses no pair of edges."""
+    for turn in range(0, 90, 7):
+        text = text_of(sheet(0, 0, 1), sheet(0.3, -0.2, 0.9, place=2.0, turn_deg=turn))
+        (tmp_path / "a.obj").write_text(text)
+        obj = check_atlas.read_obj(tmp_path / "a.obj")
+        border = check_atlas.Boundary(obj, check_atlas.Topology(obj))
+        count = len(border.a)
+        apart = [(i, j) for i in range(count) for j in range(i) if border.chart[i] != border.chart[j]]
+        brute = sum(check_atlas.exactly_touch(*border.pairs(i, j)) for i, j in apart)
+        assert brute > 0
+        assert len(border.contacts_and_gap(0)[0]) == brute
+
+
+def test_command_line(tmp_path):
+    (tmp_path / "a.obj").write_text(GOOD)
+    script = Path(check_atlas.__file__)
+
+    def run(*arguments):
+        return subprocess.run([sys.executable, script, *arguments], capture_output=True, text=True, check=False)
+
+    good = run(tmp_path / "a.obj", tmp_path / "a.obj", "--pe-bound", "0.8")
+    assert (good.returncode, good.stdout.count("\n"), good.stderr) == (0, 1, "")
+    assert run(tmp_path / "a.obj", tmp_path / "a.obj", "--pe-bound", "0.9").returncode == 1
+    assert run(tmp_path / "a.obj", tmp_path / "missing.obj").returncode == 2
