@@ -1,6 +1,8 @@
 """Packs addon/ and the built Python package into one zip: an extension for Blender 4.2+, a legacy add-on before.
 
-usage: package_addon.py BUILD_DIR OUT_DIR
+usage: package_addon.py OUT_DIR BUILD_DIR...
+
+Several build folders, each for another Python, make one zip that runs on all of them.
 """
 
 import pathlib
@@ -26,11 +28,20 @@ def write(archive, name, data):
     archive.writestr(info, data)
 
 
-def main(build_dir, out_dir):
-    package = pathlib.Path(build_dir) / "python" / "atlas_refine"
-    native = files(package, ["*.py", "*.pyi", "py.typed", "*.so", "*.so.*"])
-    if not any(name.suffix == ".so" for name, _ in native):
-        sys.exit(f"{package} holds no built module; run ./dev build first")
+def built_packages(build_dirs):
+    """Files of the Python package by their name, of all builds."""
+    native = {}
+    for build_dir in build_dirs:
+        package = pathlib.Path(build_dir) / "python" / "atlas_refine"
+        found = dict(files(package, ["*.py", "*.pyi", "py.typed", "*.so", "*.so.*"]))
+        if not any(name.suffix == ".so" for name in found):
+            sys.exit(f"{package} holds no built module; run ./dev build first")
+        native.update(found)
+    return native
+
+
+def main(out_dir, *build_dirs):
+    native = built_packages(build_dirs)
     manifest = (ROOT / "addon" / "blender_manifest.toml").read_text()
     version = re.search(r'^version = "(.+)"$', manifest, re.MULTILINE).group(1)
     out = pathlib.Path(out_dir) / f"atlas_refine-{version}.zip"
@@ -40,12 +51,12 @@ def main(build_dir, out_dir):
             write(archive, name.as_posix(), path.read_bytes())
         write(archive, "LICENSE", (ROOT / "LICENSE").read_bytes())
         write(archive, "native/__init__.py", b"")
-        for name, path in native:
+        for name, path in sorted(native.items()):
             write(archive, f"native/atlas_refine/{name.as_posix()}", path.read_bytes())
     print(out)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2])
+    main(*sys.argv[1:])

@@ -1,0 +1,225 @@
+"""Drives Blender's window with real mouse and key events: the tab, the button, progress, Esc, undo. After `--`, RESULT.json.
+
+Each test is a generator: it yields how many seconds to wait for, or a condition to wait for.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import time
+import traceback
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent), str(HERE.parent.parent / "tests" / "python")]
+
+import bpy
+import numpy as np
+import shapes
+from support import MODULE, add_mesh, enable_addon, get_uvs, packing_efficiency
+
+RESULT = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
+STEP_SECONDS = 0.05
+WAIT_LIMIT_SECONDS = 60
+#: Where the tab and the button are in the sidebar of Blender 3.4.1's UV editor, in pixels from its right and top edge.
+TAB = (12, 180)
+BUTTON = (140, 310)
+
+
+def slow_mesh():
+    """Takes the engine several seconds."""
+    return add_mesh(shapes.join(*(shapes.grid(60, 12, origin=(0.0, 90.0 * i), bend=5.0) for i in range(6))), name="Slow")
+
+
+def window():
+    return bpy.context.window_manager.windows[0]
+
+
+def uv_editor():
+    return next(area for area in window().screen.areas if area.type == "IMAGE_EDITOR")
+
+
+def tasks():
+    return sys.modules[f"{MODULE}.tasks"]
+
+
+def point(offset):
+    region = next(region for region in uv_editor().regions if region.type == "UI")
+    return region.x + region.width - offset[0], region.y + region.height - offset[1]
+
+
+def click(offset):
+    x, y = point(offset)
+    window().event_simulate("MOUSEMOVE", "NOTHING", x=x, y=y)
+    yield 0.2
+    window().event_simulate("LEFTMOUSE", "PRESS", x=x, y=y)
+    yield 0.1
+    window().event_simulate("LEFTMOUSE", "RELEASE", x=x, y=y)
+    yield 0.2
+
+
+def key(name, over=None, **modifiers):
+    x, y = over or point(BUTTON)
+    window().event_simulate(name, "PRESS", x=x, y=y, **modifiers)
+    yield 0.05
+    window().event_simulate(name, "RELEASE", x=x, y=y, **modifiers)
+
+
+def picture(name):
+    subprocess.run(["import", "-window", "root", RESULT.with_name(f"window-{name}.png")], check=False, env=os.environ)
+
+
+def uvs(obj):
+    return get_uvs(obj.data.uv_layers.active)
+
+
+def running():
+    return tasks().running is not None
+
+
+def start(obj, pe_bound=0.8):
+    bpy.context.view_layer.objects.active = obj
+    bpy.context.scene.atlas_refine.pe_bound = pe_bound
+    uv_editor().tag_redraw()
+    yield 0.3
+    yield from click(BUTTON)
+
+
+def prepare():
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+    area = max(window().screen.areas, key=lambda area: area.width * area.height)
+    area.ui_type = "UV"
+    area.spaces.active.show_region_ui = True
+    yield 1.0
+    yield from click(TAB)
+    yield 0.5
+
+
+def test_the_tab_shows_the_panel():
+    drawn = []
+    panel = bpy.types.IMAGE_PT_atlas_refine
+    original = panel.draw
+    panel.draw = lambda self, context: (drawn.append(True), original(self, context))
+    uv_editor().tag_redraw()
+    yield 0.5
+    panel.draw = original
+    picture("panel")
+    assert drawn, "the panel is not drawn"
+
+
+def test_the_button_refines_and_one_undo_takes_it_back():
+    obj = add_mesh()
+    before = uvs(obj)
+    bpy.ops.ed.undo_push(message="Made a mesh")
+    yield from start(obj)
+    yield lambda: tasks().last is not None and not running()
+    yield 0.3
+    picture("refined")
+    obj = bpy.data.objects["Loose"]
+    assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
+    yield from key("Z", ctrl=True)
+    yield 0.5
+    assert uvs(bpy.data.objects["Loose"]).tobytes() == before.tobytes(), "one undo does not take it back"
+    yield from key("Z", ctrl=True, shift=True)
+    yield 0.5
+    assert uvs(bpy.data.objects["Loose"]).tobytes() != before.tobytes(), "redo does nothing"
+
+
+def test_the_window_lives_while_it_runs_and_esc_stops_it():
+    obj = slow_mesh()
+    before = uvs(obj)
+    yield from start(obj, pe_bound=0.95)
+    yield lambda: running()
+    ticks, began = 0, time.monotonic()
+    fractions = []
+    while running() and time.monotonic() - began < 1.0:
+        ticks += 1
+        fractions.append(tasks().running.job.progress.fraction)
+        yield STEP_SECONDS
+    assert running(), "over too soon to be stopped"
+    assert ticks > 8, f"only {ticks} steps of the window in a second"
+    assert fractions == sorted(fractions)
+    picture("running")
+    began = time.monotonic()
+    yield from key("ESC")
+    yield lambda: not running()
+    assert time.monotonic() - began < 0.5, f"stopped only after {time.monotonic() - began:.2f} s"
+    yield 0.3
+    assert uvs(bpy.data.objects["Slow"]).tobytes() == before.tobytes()
+
+
+def test_a_mesh_that_changed_meanwhile_is_left_alone():
+    obj = slow_mesh()
+    yield from start(obj, pe_bound=0.95)
+    yield lambda: running()
+    obj.data.vertices[0].co.x += 1.0
+    changed = uvs(obj)
+    yield lambda: not running()
+    yield 0.3
+    assert uvs(obj).tobytes() == changed.tobytes()
+
+
+def test_edit_mode_from_the_button():
+    obj = add_mesh(name="Edited")
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.object.mode_set(mode="EDIT")
+    tasks().last = None
+    yield from start(obj)
+    yield lambda: tasks().last is not None and not running()
+    assert obj.mode == "EDIT"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
+
+
+def test_another_file_ends_a_run():
+    yield from start(slow_mesh(), pe_bound=0.95)
+    yield lambda: running()
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    yield 0.5
+    assert not running()
+    enable_addon()
+    yield 0.5
+    yield from prepare()
+    obj = add_mesh()
+    tasks().last = None
+    yield from start(obj)
+    yield lambda: tasks().last is not None and not running()
+    assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
+
+
+def wait(step):
+    """One step of a generator as seconds to wait."""
+    if not callable(step):
+        yield step
+        return
+    began = time.monotonic()
+    while not step():
+        if time.monotonic() - began > WAIT_LIMIT_SECONDS:
+            raise TimeoutError("waited in vain")
+        yield STEP_SECONDS
+
+
+def drive():
+    tests = [value for name, value in globals().items() if name.startswith("test_")]
+    counts = {"passed": 0, "failed": 0, "skipped": []}
+    yield 1.0
+    for test in [prepare, *tests]:
+        try:
+            for step in test():
+                yield from wait(step)
+            print(f"{test.__name__} ... ok", flush=True)
+            counts["passed"] += test is not prepare
+        except Exception:
+            print(f"{test.__name__} ... FAIL\n{traceback.format_exc()}", flush=True)
+            picture(test.__name__)
+            counts["failed"] += 1
+    RESULT.write_text(json.dumps(counts))
+    os._exit(1 if counts["failed"] else 0)  # Blender's own quit asks about unsaved changes
+
+
+steps = drive()
+np.seterr(all="raise")
+enable_addon()
+bpy.app.timers.register(lambda: next(steps), first_interval=0.5, persistent=True)

@@ -1,0 +1,46 @@
+"""Runs drive.py in a real Blender window on a virtual screen: run.py BLENDER RESULT.json. Screenshots go beside the result."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+SIZE = ("1600", "900")
+TIMEOUT_SECONDS = 300
+
+
+def start_screen():
+    """An X server on a free display number of its own choice."""
+    reader, writer = os.pipe()
+    command = ["Xvfb", "-displayfd", str(writer), "-screen", "0", "x".join((*SIZE, "24")), "+extension", "GLX", "-noreset"]
+    server = subprocess.Popen(command, pass_fds=[writer], stderr=subprocess.DEVNULL)
+    os.close(writer)
+    with os.fdopen(reader) as pipe:
+        number = pipe.readline().strip()
+    if not number:
+        sys.exit("Xvfb does not start")
+    return server, f":{number}"
+
+
+def main(blender, result):
+    (archive,) = (ROOT / "dist").glob("atlas_refine-*.zip")
+    server, display = start_screen()
+    try:
+        with tempfile.TemporaryDirectory(prefix="atlas-refine-profile-") as profile:
+            environment = {**os.environ, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "BLENDER_USER_RESOURCES": profile}
+            install = [blender, "-b", "--factory-startup", "--python-exit-code", "1"]
+            install += ["--python", HERE.parent / "install_addon.py", "--", archive]
+            subprocess.run(install, env=environment, check=True)
+            drive = [blender, "--factory-startup", "--enable-event-simulate", "--window-geometry", "0", "0", *SIZE]
+            drive += ["--python", HERE / "drive.py", "--", result]
+            return subprocess.run(drive, env=environment, check=False, timeout=TIMEOUT_SECONDS).returncode
+    finally:
+        server.terminate()
+        server.wait()
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], sys.argv[2]))

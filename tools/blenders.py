@@ -1,0 +1,65 @@
+"""The Blenders that tests and demo run in: Debian's program, and the official builds as the bpy module of PyPI."""
+
+import pathlib
+import shutil
+import subprocess
+from dataclasses import dataclass
+
+#: Official builds. One is enough for every day; the others are for --all-blenders. The last needs a Python 3.13.
+EVERY_DAY = ["4.5.15"]
+OTHERS = ["4.2.23", "5.0.1"]
+PYTHON_3_13 = ["5.2.3"]
+
+
+@dataclass(frozen=True)
+class Program:
+    """A Blender with a window."""
+
+    name: str
+    executable: str
+
+    def installed(self, _cache):
+        return self
+
+    def script(self, path):
+        """The command that runs a script; what follows goes to the script."""
+        return [self.executable, "-b", "--factory-startup", "--python-exit-code", "1", "--python", path, "--"]
+
+
+@dataclass(frozen=True)
+class Module:
+    """An official build as a Python module in an environment of its own."""
+
+    version: str
+    base_python: str = "/usr/bin/python3"
+    python: str = ""
+
+    @property
+    def name(self):
+        return f"Blender {self.version}"
+
+    def installed(self, cache):
+        folder = pathlib.Path(cache) / f"bpy-{self.version}"
+        python, done = folder / "bin" / "python", folder / "complete"
+        if not done.exists():
+            shutil.rmtree(folder, ignore_errors=True)
+            subprocess.run([self.base_python, "-m", "venv", folder], check=True)
+            subprocess.run([python, "-m", "pip", "install", "-q", f"bpy=={self.version}"], check=True)
+            done.touch()
+        return Module(self.version, self.base_python, str(python))
+
+    def script(self, path):
+        return [self.python, path, "--"]
+
+
+def debian():
+    """Debian 12's Blender 3.4.1."""
+    text = subprocess.run(["/usr/bin/blender", "--version"], capture_output=True, text=True, check=True).stdout
+    return [Program(text.splitlines()[0], "/usr/bin/blender")]
+
+
+def official(every):
+    modules = [Module(version) for version in EVERY_DAY]
+    if every:
+        modules += [Module(version) for version in OTHERS]
+    return modules
