@@ -1,0 +1,156 @@
+// The certificate: what it accepts, and every kind of overlap that it must find.
+#include "measure/certificate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "input/split_charts.h"
+#include "shapes.h"
+#include "small_atlases.h"
+
+namespace atlas_refine {
+namespace {
+
+std::vector<Chart> placed(const Atlas& atlas) { return charts_as_placed(split_charts(atlas)); }
+
+TEST(Certificate, AcceptsGoodAtlases) {
+  for (const shapes::Named& named : shapes::named_polygons()) {
+    EXPECT_EQ(certify_charts(placed(shapes::mesh(named.polygon))).problem, "") << named.name;
+  }
+  EXPECT_TRUE(certify_charts(placed(shapes::two_squares(0.01))).valid());
+  EXPECT_TRUE(certify_charts(placed(shapes::disk_in_ring())).valid());
+  EXPECT_TRUE(certify_charts(placed(shapes::squares(50))).valid());
+  EXPECT_TRUE(validate(shapes::quad_grid(5, 4)).valid());
+}
+
+TEST(Certificate, FindsFlips) {
+  const Validity validity = validate(shapes::with_flipped_face(shapes::mesh(shapes::rectangle(1, 1), 0.1)));
+  EXPECT_FALSE(validity.valid());
+  EXPECT_GT(validity.flipped_faces, 0);
+  EXPECT_EQ(validity.chart, 0);
+  EXPECT_GE(validity.face, 0);
+}
+
+TEST(Certificate, FindsChartsThatTouchOrCross) {
+  EXPECT_GT(validate(shapes::touching_charts()).crossings, 0);
+  EXPECT_GT(validate(shapes::two_squares(-0.1)).crossings, 0);
+  EXPECT_EQ(validate(shapes::two_squares(std::ldexp(1.0, -40))).crossings, 0);
+}
+
+TEST(Certificate, FindsAChartThatCrossesItself) {
+  const Validity validity = validate(shapes::self_overlapping());
+  EXPECT_EQ(validity.flipped_faces, 0);
+  EXPECT_GT(validity.crossings, 0);
+  EXPECT_NE(validity.problem.find("touches or crosses itself"), std::string::npos) << validity.problem;
+}
+
+TEST(Certificate, FindsAChartInsideAnother) {
+  const Atlas large = shapes::mesh(shapes::rectangle(1, 1), 0.2);
+  const Atlas small = shapes::mesh(shapes::transformed(shapes::rectangle(0.2, 0.2), 1, 0.3, {0.4, 0.4}), 0.1);
+  for (const Atlas& atlas : {shapes::combine({large, small}), shapes::combine({small, large})}) {
+    const Validity validity = validate(atlas);
+    EXPECT_EQ(validity.crossings, 0);
+    EXPECT_NE(validity.problem.find("overlaps chart"), std::string::npos) << validity.problem;
+  }
+}
+
+TEST(Certificate, FindsTheSameChartTwice) {
+  const Atlas square = unit_square();
+  EXPECT_FALSE(validate(shapes::combine({square, square})).valid());
+}
+
+/// A ring that winds twice around: two nested counterclockwise loops and no crossing, all triangles positive. The two branch
+/// points inside it have an angle sum of 4 pi.
+TEST(Certificate, FindsAnOverlapThatNoBoundaryShows) {
+  Chart chart;
+  // A disk, and a second disk glued to it along a slit of one edge, crosswise: sheets change at the slit.
+  // Vertices: slit ends p, q; outer hexagon of each sheet.
+  chart.uvs = {{-0.2, 0}, {0.2, 0}};
+  for (double radius : {1.0, 2.0}) {
+    for (int i = 0; i < 6; ++i) chart.uvs.push_back({radius * std::cos(i * M_PI / 3), radius * std::sin(i * M_PI / 3)});
+  }
+  for (int sheet = 0; sheet < 2; ++sheet) {
+    const auto outer = [&](int i) { return 2 + 6 * sheet + i % 6; };
+    for (int i : {0, 5}) chart.triangles.push_back({1, outer(i), outer(i + 1)});
+    for (int i : {2, 3}) chart.triangles.push_back({0, outer(i), outer(i + 1)});
+    chart.triangles.push_back({1, outer(1), outer(2)});
+    chart.triangles.push_back({0, outer(4), outer(5)});
+    chart.triangles.push_back({0, 1, outer(2)});  // above the slit
+    chart.triangles.push_back({1, 0, outer(5)});  // below the slit: on the other sheet's side it is joined crosswise
+    std::vector<int> loop;
+    for (int i = 0; i < 6; ++i) loop.push_back(outer(i));
+    chart.boundary_loops.push_back(loop);
+  }
+  chart.triangle_faces.assign(chart.triangles.size(), 0);
+  const Validity validity = certify_charts({chart});
+  EXPECT_EQ(validity.flipped_faces, 0);
+  EXPECT_EQ(validity.crossings, 0);
+  EXPECT_NE(validity.problem.find("overlaps itself"), std::string::npos) << validity.problem;
+}
+
+TEST(Certificate, CountsMirroredCharts) {
+  const Validity validity = validate(shapes::mirrored(shapes::two_squares(0.1)));
+  EXPECT_EQ(validity.mirrored_charts, 2);
+  EXPECT_EQ(validity.flipped_faces, 0);
+  EXPECT_EQ(validity.crossings, 0);
+  EXPECT_EQ(validity.problem, "chart 0 is mirrored");
+}
+
+TEST(Certificate, ManyStackedChartsEnd) {
+  std::vector<Atlas> stack(300, unit_square());
+  EXPECT_EQ(validate(shapes::combine(stack)).crossings, 10000);
+}
+
+TEST(Gaps, BetweenTwoSquares) {
+  EXPECT_NEAR(gap_between_charts(placed(shapes::two_squares(0.125))), 0.125, 1e-12);
+  EXPECT_EQ(gap_between_charts(placed(shapes::touching_charts())), 0);
+  EXPECT_EQ(gap_between_charts(placed(shapes::two_squares(-0.25))), 0);  // crossing
+  EXPECT_EQ(gap_between_charts(placed(unit_square())), std::numeric_limits<double>::infinity());
+}
+
+TEST(Gaps, BetweenADiskAndTheRingAroundIt) {
+  const std::vector<Chart> charts = placed(shapes::disk_in_ring());
+  double expected = std::numeric_limits<double>::infinity();
+  for (const Vec2& p : charts[0].uvs) {
+    for (const Vec2& q : charts[1].uvs) expected = std::min(expected, (p - q).norm());
+  }
+  const double gap = gap_between_charts(charts);
+  EXPECT_LE(gap, expected);
+  EXPECT_GT(gap, 0.8 * expected);
+}
+
+TEST(Gaps, WithinASlit) {
+  // A square with a slit 0.02 wide from the right edge to the middle, wide open at no other place.
+  const shapes::Polygon slit{{{0, 0}, {1, 0}, {1, 0.49}, {0.5, 0.49}, {0.5, 0.51}, {1, 0.51}, {1, 1}, {0, 1}}, {}};
+  const std::vector<Chart> charts = placed(shapes::mesh(slit, 0.05, 0));
+  EXPECT_NEAR(gap_within_charts(charts, 0.1, 0.1)[0], 0.02, 1e-12);
+  EXPECT_EQ(gap_within_charts(charts, 0.1, 0.01)[0], std::numeric_limits<double>::infinity());  // out of reach
+  EXPECT_EQ(gap_within_charts(charts, 2.5, 0.1)[0], std::numeric_limits<double>::infinity());   // no points that far apart
+}
+
+TEST(Gaps, WithinAConvexChartThereIsNone) {
+  EXPECT_EQ(gap_within_charts(placed(shapes::mesh(shapes::disk(0.5))), 0.05, 1)[0], std::numeric_limits<double>::infinity());
+}
+
+TEST(Gaps, AThinNeckIsNoGap) {
+  // Two squares joined by a bridge 0.02 wide: its borders face each other through the chart.
+  const shapes::Polygon neck{{{0, 0},
+                              {0.4, 0},
+                              {0.4, 0.19},
+                              {0.6, 0.19},
+                              {0.6, 0},
+                              {1, 0},
+                              {1, 0.4},
+                              {0.6, 0.4},
+                              {0.6, 0.21},
+                              {0.4, 0.21},
+                              {0.4, 0.4},
+                              {0, 0.4}},
+                             {}};
+  EXPECT_NEAR(gap_within_charts(placed(shapes::mesh(neck, 0.05, 0)), 0.45, 1)[0], 0.2, 1e-9);
+}
+
+}  // namespace
+}  // namespace atlas_refine

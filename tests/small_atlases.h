@@ -1,0 +1,45 @@
+// Atlases of a few faces, written out by hand.
+#pragma once
+
+#include <vector>
+
+#include "atlas_refine/atlas.h"
+
+namespace atlas_refine {
+
+/// Faces as lists of vertices. Corner UVs are the positions' x and y.
+inline Atlas flat_atlas(const std::vector<Vec3>& positions, const std::vector<std::vector<int>>& faces) {
+  Atlas atlas;
+  atlas.positions = positions;
+  atlas.face_offsets = {0};
+  for (const std::vector<int>& face : faces) {
+    for (int v : face) {
+      atlas.corner_vertices.push_back(v);
+      atlas.corner_uvs.push_back(positions[v].head<2>());
+    }
+    atlas.face_offsets.push_back(atlas.corner_count());
+  }
+  return atlas;
+}
+
+/// The unit square of two triangles: vertices counterclockwise from the origin.
+inline Atlas unit_square() { return flat_atlas({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}); }
+
+/// A strip of quads 1 x 1 along x.
+inline Atlas strip(int quads) {
+  std::vector<Vec3> positions;
+  std::vector<std::vector<int>> faces;
+  for (int i = 0; i <= quads; ++i) {
+    positions.push_back({static_cast<double>(i), 0, 0});
+    positions.push_back({static_cast<double>(i), 1, 0});
+  }
+  for (int i = 0; i < quads; ++i) faces.push_back({2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
+  return flat_atlas(positions, faces);
+}
+
+/// Adds `by` to the UVs of one face.
+inline void shift_face(Atlas& atlas, int face, const Vec2& by) {
+  for (int c = atlas.face_offsets[face]; c < atlas.face_offsets[face + 1]; ++c) atlas.corner_uvs[c] += by;
+}
+
+}  // namespace atlas_refine
