@@ -87,6 +87,7 @@ RefineResult refine_with_progress(const Atlas& atlas, const RefineOptions& optio
 
 /// The result and the report appear together, or neither does.
 void write_outputs(const CommandLine& line, const ObjFile& file, const RefineResult& result, Times& times) {
+  const InterruptScope ask(OnInterrupt::Ask);
   const auto start = std::chrono::steady_clock::now();
   const bool unchanged = result.intervention == Intervention::Unchanged;
   PendingFile output(line.output, unchanged ? file.text() : file.text_with_uvs(result.corner_uvs));
@@ -107,7 +108,7 @@ int run_refine(const CommandLine& line) {
     file = std::make_unique<ObjFile>(ObjFile::read(line.input));
     times.read = seconds_since(start);
 
-    const StopOnInterrupt stop_on_interrupt;
+    const InterruptScope ask_and_exit(OnInterrupt::AskAndExit);
     const auto debug = pictures(line);
     start = std::chrono::steady_clock::now();
     const RefineResult result = refine_with_progress(file->atlas(), line.options, debug.get());

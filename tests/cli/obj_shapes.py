@@ -27,6 +27,17 @@ def grid(side=4, angle_deg=0.0, bump=0.0, relative=False, normals=False, line_en
     return line_end.join(lines) + line_end
 
 
+def arc(side):
+    """A C of side x side quads in one chart, flat in space: it fills half of its box until it is bent."""
+    n = side + 1
+    points = [(0.5 + 0.5 * i / side, math.radians(300) * j / side) for j in range(n) for i in range(n)]
+    points = [(r * math.cos(a), r * math.sin(a)) for r, a in points]
+    lines = [f"v {x} {y} 0" for x, y in points] + [f"vt {x} {y}" for x, y in points]
+    quads = [(j * n + i + 1, j * n + i + 2, (j + 1) * n + i + 2, (j + 1) * n + i + 1) for j in range(side) for i in range(side)]
+    lines += ["f " + " ".join(f"{k}/{k}" for k in quad) for quad in quads]
+    return "\n".join(lines) + "\n"
+
+
 def records(text, keyword):
     return [line for line in text.splitlines() if line.split()[:1] == [keyword]]
 
