@@ -7,7 +7,7 @@ import pytest
 from obj_shapes import grid
 
 MUTATIONS = 400
-JUNK = ["nan", "-1", "0", "1e400", "/", "//", "1/", "f", "vt", "v", "\\", "#", "99", "-99", "1/1/1", "", "\n", "\x00", "1e-400", "+", "-"]
+JUNK = ["", "\n", "\x00", *"nan -1 0 1e400 1e-400 / // 1/ 1/1/1 f vt v \\ # 99 -99 + -".split()]
 
 
 def truncated(rng, text):

@@ -123,7 +123,9 @@ def test_option_that_cannot_be_understood(program, good, old_output, options, th
     assert thing in program.refused(2, good, "-o", old_output, *options)
 
 
-@pytest.mark.parametrize("arguments", [[], ["-o", "out.obj"], ["measure"], ["measure", "a.obj", "b.obj"], ["measure", "--gap", "1"]])
+@pytest.mark.parametrize(
+    "arguments", [[], ["-o", "out.obj"], ["measure"], ["measure", "a.obj", "b.obj"], ["measure", "--gap", "1"]]
+)
 def test_missing_or_surplus_arguments(program, arguments):
     program.refused(2, *arguments)
 
