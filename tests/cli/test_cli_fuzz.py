@@ -7,7 +7,7 @@ import pytest
 from obj_shapes import grid
 
 MUTATIONS = 400
-JUNK = ["", "\n", "\x00", *"nan -1 0 1e400 1e-400 / // 1/ 1/1/1 f vt v \\ # 99 -99 + -".split()]
+JUNK = ["", "\n", "\x00", "nan", "1e400", "1e-400", "0", "-1", "99", "-99", "/", "//", "1/", "1/1/1", "f", "v", "vt", "\\", "#", "+"]
 
 
 def truncated(rng, text):
