@@ -20,13 +20,15 @@ struct Placement {
   double sine = 0;
   Vec2 offset = Vec2::Zero();
 
-  Vec2 apply(const Vec2& p) const { return {cosine * p.x() - sine * p.y() + offset.x(), sine * p.x() + cosine * p.y() + offset.y()}; }
+  Vec2 apply(const Vec2& p) const {
+    return {cosine * p.x() - sine * p.y() + offset.x(), sine * p.x() + cosine * p.y() + offset.y()};
+  }
 };
 
 struct PackOptions {
-  double gap = 0;             ///< smallest distance between two charts, absolute, in the outlines' units
-  double box_aspect = 0;      ///< width / height, 0 = free
-  double target_pe = 1;       ///< stop searching once sum(area) / box area reaches this
+  double gap = 0;         ///< smallest distance between two charts, absolute, in the outlines' units
+  double box_aspect = 0;  ///< width / height, 0 = free
+  double target_pe = 1;   ///< stop searching once sum(area) / box area reaches this
   std::uint64_t seed = 1;
   int threads = 1;
   std::function<void(double)> tick;  ///< called from the calling thread with progress in [0, 1]; may throw to cancel

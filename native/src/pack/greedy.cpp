@@ -1,0 +1,40 @@
+// Bottom-left placement of charts in a strip.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pack/layout.h"
+
+namespace atlas_refine {
+
+Layout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& rule) {
+  Layout layout;
+  layout.turns.assign(charts.size(), 0);
+  layout.places.assign(charts.size(), {});
+  Occupancy strip(rule.strip_width);
+  for (const int chart : rule.order) {
+    double best_cost = INFINITY;
+    int best_x = 0;
+    const auto& rasters = charts[chart].rasters;
+    for (int turn = 0; turn < static_cast<int>(rasters.size()); ++turn) {
+      const double extra = rule.height_weight * rasters[turn].height;
+      const double room = std::min(best_cost - extra, static_cast<double>(std::numeric_limits<int>::max()));
+      if (room < 0) continue;
+      Cell place;
+      if (!strip.find_lowest(rasters[turn], static_cast<int>(std::floor(room)), place)) continue;
+      const double cost = place.y + extra;
+      if (cost > best_cost || (cost == best_cost && place.x >= best_x)) continue;
+      best_cost = cost;
+      best_x = place.x;
+      layout.turns[chart] = turn;
+      layout.places[chart] = place;
+    }
+    const Raster& raster = rasters[layout.turns[chart]];
+    strip.add(raster, layout.places[chart]);
+    layout.width = std::max(layout.width, layout.places[chart].x + raster.width);
+  }
+  layout.height = strip.height();
+  return layout;
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,33 @@
+// A layout on the grid: the values that the search for a packing works on.
+#pragma once
+
+#include <vector>
+
+#include "pack/occupancy.h"
+
+namespace atlas_refine {
+
+/// One chart in all the turns that are tried.
+struct GridChart {
+  std::vector<Raster> rasters;
+};
+
+/// Where each chart lies: which of its rasters, and the cell of its min corner.
+struct Layout {
+  std::vector<int> turns;
+  std::vector<Cell> places;
+  int width = 0;  ///< cells that are used
+  int height = 0;
+};
+
+/// How the greedy placement goes about it.
+struct GreedyRule {
+  std::vector<int> order;    ///< charts in the order they are placed
+  int strip_width = 0;       ///< cells
+  double height_weight = 1;  ///< a chart goes where y + height_weight * (its height) is smallest
+};
+
+/// Places charts one after another, each in the turn and at the place that the rule likes best.
+Layout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& rule);
+
+}  // namespace atlas_refine

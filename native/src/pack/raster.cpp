@@ -1,0 +1,145 @@
+// Conservative bitmaps: per row of cells, the exact extent of every dilated edge, and the inside between them.
+#include "pack/raster.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace atlas_refine {
+namespace {
+
+/// An edge dilated to a capsule.
+struct Capsule {
+  Vec2 a, b;
+  double radius;
+
+  /// Largest x of the capsule at height y, -infinity where it does not reach.
+  double right_at(double y) const {
+    double x = -INFINITY;
+    for (const Vec2& p : {a, b}) {
+      const double square = radius * radius - (y - p.y()) * (y - p.y());
+      if (square >= 0) x = std::max(x, p.x() + std::sqrt(square));
+    }
+    const Vec2 edge = b - a;
+    const double length = edge.norm();
+    if (length > 0 && edge.y() != 0) {
+      const double sign = edge.y() > 0 ? 1 : -1;
+      const Vec2 p = a + sign * radius / length * Vec2(edge.y(), -edge.x());
+      const double t = (y - p.y()) / edge.y();
+      if (t >= 0 && t <= 1) x = std::max(x, p.x() + t * edge.x());
+    }
+    return x;
+  }
+
+  /// Largest x in the band [low, high], which the capsule reaches: its right side is concave in y.
+  double right_in(double low, double high) const {
+    const Vec2& tip = a.x() > b.x() ? a : b;
+    if (tip.y() >= low && tip.y() <= high) return tip.x() + radius;
+    const double reached_low = std::max(low, std::min(a.y(), b.y()) - radius);
+    const double reached_high = std::min(high, std::max(a.y(), b.y()) + radius);
+    double x = right_at(std::clamp(tip.y(), reached_low, reached_high));
+    // On its extreme heights round-off may miss the capsule altogether.
+    if (x == -INFINITY) x = std::max(a.x(), b.x()) + radius;
+    return x;
+  }
+};
+
+struct Interval {
+  double low, high;
+};
+
+/// Merges the row's intervals into runs of cells and sets their bits.
+void add_row(Raster& raster, int y, std::vector<Interval>& intervals) {
+  std::sort(intervals.begin(), intervals.end(), [](const Interval& p, const Interval& q) { return p.low < q.low; });
+  const size_t first = raster.runs.size();
+  for (const Interval& interval : intervals) {
+    const int begin = std::clamp(static_cast<int>(std::floor(interval.low)), 0, raster.width - 1);
+    const int end = std::clamp(static_cast<int>(std::floor(interval.high)) + 1, begin + 1, raster.width);
+    if (raster.runs.size() > first && begin <= raster.runs.back().end) {
+      raster.runs.back().end = std::max(raster.runs.back().end, end);
+    } else {
+      raster.runs.push_back({y, begin, end});
+    }
+  }
+  std::uint64_t* row = raster.bits.data() + 1 + static_cast<size_t>(y) * raster.stride();
+  for (size_t k = first; k < raster.runs.size(); ++k) {
+    for (int x = raster.runs[k].begin; x < raster.runs[k].end; ++x) row[x >> 6] |= std::uint64_t{1} << (x & 63);
+    raster.cells += raster.runs[k].end - raster.runs[k].begin;
+  }
+}
+
+}  // namespace
+
+Raster rasterise(const Outline& outline, const Turn& turn, double radius, double cell) {
+  // Widened by what round-off may lose, so that "touches" is never missed.
+  const double slack = 1e-7;
+  std::vector<std::vector<Vec2>> loops = outline.loops;
+  Box box{Vec2::Constant(INFINITY), Vec2::Constant(-INFINITY)};
+  for (auto& loop : loops) {
+    for (Vec2& p : loop) {
+      p = turn.apply(p);
+      box.min = box.min.cwiseMin(p);
+      box.max = box.max.cwiseMax(p);
+    }
+  }
+  Raster raster;
+  raster.turn = turn;
+  const double r = radius / cell + slack;
+  raster.origin = box.min - Vec2::Constant(r * cell);
+  raster.width = static_cast<int>(std::floor(box.size().x() / cell + 2 * r)) + 1;
+  raster.height = static_cast<int>(std::floor(box.size().y() / cell + 2 * r)) + 1;
+  raster.words = (raster.width + 63) / 64;
+  raster.bits.assign(static_cast<size_t>(raster.stride()) * raster.height + 1, 0);
+
+  std::vector<std::vector<Interval>> rows(raster.height);
+  std::vector<std::vector<std::pair<double, int>>> crossings(raster.height);  // x, and +1 where the outline goes down
+  for (const auto& loop : loops) {
+    for (size_t i = 0; i < loop.size(); ++i) {
+      const Vec2 a = (loop[i] - raster.origin) / cell, b = (loop[(i + 1) % loop.size()] - raster.origin) / cell;
+      const Capsule capsule{a, b, r}, mirrored{{-a.x(), a.y()}, {-b.x(), b.y()}, r};
+      const double low = std::min(a.y(), b.y()), high = std::max(a.y(), b.y());
+      const int first = std::clamp(static_cast<int>(std::floor(low - r)), 0, raster.height - 1);
+      const int last = std::clamp(static_cast<int>(std::floor(high + r)), 0, raster.height - 1);
+      for (int y = first; y <= last; ++y) {
+        rows[y].push_back({-mirrored.right_in(y, y + 1), capsule.right_in(y, y + 1)});
+        const double middle = y + 0.5;
+        if ((a.y() > middle) == (b.y() > middle)) continue;
+        crossings[y].emplace_back(a.x() + (middle - a.y()) / (b.y() - a.y()) * (b.x() - a.x()), a.y() > b.y() ? 1 : -1);
+      }
+    }
+  }
+  for (int y = 0; y < raster.height; ++y) {
+    std::sort(crossings[y].begin(), crossings[y].end());
+    for (size_t k = 0, winding = 0; k + 1 < crossings[y].size(); ++k) {
+      winding += crossings[y][k].second;
+      if (winding != 0) rows[y].push_back({crossings[y][k].first, crossings[y][k + 1].first});
+    }
+    add_row(raster, y, rows[y]);
+  }
+  return raster;
+}
+
+int shared_cells(const Raster& a, const Cell& a_place, const Raster& b, const Cell& b_place) {
+  if (a.words > b.words) return shared_cells(b, b_place, a, a_place);
+  const int bottom = std::max(a_place.y, b_place.y), top = std::min(a_place.y + a.height, b_place.y + b.height);
+  const int left = std::max(a_place.x, b_place.x), right = std::min(a_place.x + a.width, b_place.x + b.width);
+  if (bottom >= top || left >= right) return 0;
+  int count = 0;
+  for (int word = (left - a_place.x) >> 6; word <= (right - 1 - a_place.x) >> 6; ++word) {
+    // The word's 64 cells begin at `at` in b; b's guard words make both reads safe.
+    const int at = word * 64 + a_place.x - b_place.x;
+    const int b_word = at >> 6, shift = at & 63;
+    const std::uint64_t* a_row = a.row(bottom - a_place.y) + word;
+    const std::uint64_t* b_row = b.row(bottom - b_place.y) + b_word;
+    if (shift == 0) {
+      for (int y = bottom; y < top; ++y, a_row += a.stride(), b_row += b.stride()) count += std::popcount(*a_row & *b_row);
+    } else {
+      for (int y = bottom; y < top; ++y, a_row += a.stride(), b_row += b.stride()) {
+        count += std::popcount(*a_row & ((b_row[0] >> shift) | (b_row[1] << (64 - shift))));
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,123 @@
+// Rotations by rotating calipers: a smallest box has a side along a hull edge, or touches its aspect between two such turns.
+#include "pack/turns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace atlas_refine {
+namespace {
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+Turn turn_of(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
+
+/// Angles in [0, pi / 2), ascending, at which some hull edge is parallel to an axis.
+std::vector<double> caliper_angles(const std::vector<Vec2>& hull) {
+  constexpr double kQuarter = std::numbers::pi / 2;
+  std::vector<double> angles;
+  for (size_t i = 0; i < hull.size(); ++i) {
+    const Vec2 edge = hull[(i + 1) % hull.size()] - hull[i];
+    double angle = std::fmod(-std::atan2(edge.y(), edge.x()) + 4 * kQuarter, kQuarter);
+    if (angle >= kQuarter || angle < 0) angle = 0;
+    angles.push_back(angle);
+  }
+  std::sort(angles.begin(), angles.end());
+  angles.erase(std::unique(angles.begin(), angles.end(), [](double a, double b) { return b - a < 1e-12; }), angles.end());
+  return angles;
+}
+
+/// Side of the smallest box of the aspect, measured along its width; for aspect 0 the box' area.
+double box_cost(const Vec2& size, double aspect) {
+  return aspect > 0 ? std::max(size.x(), aspect * size.y()) : size.x() * size.y();
+}
+
+/// The turn strictly between two caliper turns at which width = aspect * height: both are linear in (cos, sin) there.
+/// Returns a negative angle where there is none.
+double balanced_angle(const std::vector<Vec2>& hull, double from, double to, double aspect) {
+  const Turn middle = turn_of(0.5 * (from + to));
+  const auto span = [&](const Vec2& direction) {
+    const auto [low, high] = std::minmax_element(
+        hull.begin(), hull.end(), [&](const Vec2& a, const Vec2& b) { return a.dot(direction) < b.dot(direction); });
+    return Vec2(*high - *low);
+  };
+  const Vec2 w = span({middle.cosine, -middle.sine}), h = span({middle.sine, middle.cosine});
+  // w.x cos - w.y sin = aspect * (h.x sin + h.y cos)
+  const double angle = std::atan2(w.x() - aspect * h.y(), w.y() + aspect * h.x());
+  for (const double candidate : {angle, angle + std::numbers::pi, angle - std::numbers::pi}) {
+    if (candidate > from && candidate < to) return candidate;
+  }
+  return -1;
+}
+
+}  // namespace
+
+std::vector<Vec2> convex_hull(const Outline& outline) {
+  std::vector<Vec2> points;
+  for (const auto& loop : outline.loops) points.insert(points.end(), loop.begin(), loop.end());
+  const auto before = [](const Vec2& a, const Vec2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); };
+  std::sort(points.begin(), points.end(), before);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  std::vector<Vec2> hull;
+  const auto add = [&](const Vec2& p, size_t fixed) {
+    while (hull.size() >= fixed + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const Vec2& p : points) add(p, 0);
+  const size_t lower = hull.size() - 1;
+  for (auto p = points.rbegin() + 1; p != points.rend(); ++p) add(*p, lower);
+  hull.pop_back();
+  return hull;
+}
+
+Box turned_box(const std::vector<Vec2>& points, const Turn& turn) {
+  Box box{Vec2::Constant(INFINITY), Vec2::Constant(-INFINITY)};
+  for (const Vec2& p : points) {
+    const Vec2 q = turn.apply(p);
+    box.min = box.min.cwiseMin(q);
+    box.max = box.max.cwiseMax(q);
+  }
+  return box;
+}
+
+std::vector<Turn> small_box_turns(const std::vector<Vec2>& hull, int count) {
+  const std::vector<double> angles = caliper_angles(hull);
+  const int n = static_cast<int>(angles.size());
+  std::vector<std::pair<double, int>> by_area;
+  std::vector<double> areas;
+  for (double angle : angles) areas.push_back(turned_box(hull, turn_of(angle)).area());
+  for (int i = 0; i < n; ++i) {
+    if (areas[i] <= areas[(i + 1) % n] && areas[i] <= areas[(i + n - 1) % n]) by_area.emplace_back(areas[i], i);
+  }
+  std::sort(by_area.begin(), by_area.end());
+  std::vector<Turn> turns;
+  for (int k = 0; k < std::min<int>(count, by_area.size()); ++k) turns.push_back(turn_of(angles[by_area[k].second]));
+  return turns;
+}
+
+Turn best_turn(const std::vector<Vec2>& hull, double aspect) {
+  constexpr double kQuarter = std::numbers::pi / 2;
+  std::vector<double> angles = caliper_angles(hull);
+  if (aspect > 0) {
+    const size_t n = angles.size();
+    for (size_t i = 0; i < n; ++i) {
+      const double from = angles[i], to = i + 1 < n ? angles[i + 1] : angles[0] + kQuarter;
+      for (const double lying : {0.0, kQuarter}) {
+        const double angle = balanced_angle(hull, from + lying, to + lying, aspect);
+        if (angle >= 0) angles.push_back(angle);
+      }
+      angles.push_back(angles[i] + kQuarter);
+    }
+  }
+  Turn best;
+  double best_cost = INFINITY;
+  for (double angle : angles) {
+    const Turn turn = turn_of(angle);
+    const double cost = box_cost(turned_box(hull, turn).size(), aspect);
+    if (cost < best_cost) best_cost = cost, best = turn;
+  }
+  return best;
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,32 @@
+// Rotations worth trying for a rigid outline: those that make its bounding box small.
+#pragma once
+
+#include <vector>
+
+#include "pack/pack_charts.h"
+
+namespace atlas_refine {
+
+/// A rotation about the origin.
+struct Turn {
+  double cosine = 1;
+  double sine = 0;
+
+  Vec2 apply(const Vec2& p) const { return {cosine * p.x() - sine * p.y(), sine * p.x() + cosine * p.y()}; }
+  Turn quarter_turned() const { return {-sine, cosine}; }
+};
+
+/// Corners of the convex hull, counterclockwise, no three collinear (up to round-off).
+std::vector<Vec2> convex_hull(const Outline& outline);
+
+/// Bounding box of the points after the turn.
+Box turned_box(const std::vector<Vec2>& points, const Turn& turn);
+
+/// The turns that lay a hull edge on an axis and are local minima of the bounding box' area, smallest box first, at most
+/// `count`; one per class of quarter turns. Never empty.
+std::vector<Turn> small_box_turns(const std::vector<Vec2>& hull, int count);
+
+/// The turn with the smallest bounding box of the given aspect (width / height), exact; for aspect 0 the smallest bounding box.
+Turn best_turn(const std::vector<Vec2>& hull, double aspect);
+
+}  // namespace atlas_refine
