@@ -5,7 +5,8 @@
 #include <cmath>
 
 namespace atlas_refine {
-static Cell Separation::clamped(const Raster& raster, Cell place) const {
+
+Cell Separation::clamped(const Raster& raster, Cell place) const {
   return {std::clamp(place.x, 0, std::max(0, width_ - raster.width)),
           std::clamp(place.y, 0, std::max(0, height_ - raster.height))};
 }
