@@ -63,10 +63,9 @@ class Refinement {
     int count = 0;
     for (int c = 0; c < static_cast<int>(charts_.size()); ++c) {
       monitor_.report(static_cast<double>(c) / charts_.size());
-      const Validity own = certify_charts({charts_[c]});
-      if (own.valid()) continue;
+      if (certify_charts({charts_[c]}).valid()) continue;
       charts_[c] = re_embed(charts_[c], c, threads_, monitor_);
-      outcome_.re_embedded(c, own);
+      outcome_.re_embedded(c);
       ++count;
     }
     return count;

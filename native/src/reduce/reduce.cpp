@@ -10,10 +10,16 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kClimb = 0.01;             // log PE gains at most this much in one iteration
+constexpr double kLeastClimb = 0.01;        // log PE gains at most this much in one iteration near the target,
+constexpr double kMostClimb = 0.03;         // and this much far below it
 constexpr double kTargetSlack = 2e-5;       // aim so much above the bound, relative, that rounding cannot lose it
+constexpr double kNearTarget = 1e-3;        // log PE: from here on the barrier softens
 constexpr double kConverged = 2e-4;         // relative change of E_d - 1, twice in a row
 constexpr double kLeastPrice = 1e-3;        // the barrier is never softer than for this price
+constexpr double kFirmness = 0.2;           // stiffness of the barrier per price and range while PE climbs,
+constexpr double kSoftFirmness = 0.005;     // and at the end, when charts may come as near as the gap allows
+constexpr double kSoftening = 0.5;          // from one to the other, a step per iteration on the target
+constexpr double kOpenFirmness = 2;         // without a box: far from the optimum, a soft barrier grinds
 constexpr double kLeastDamping = 1e-6;
 constexpr double kMostDamping = 1e8;
 constexpr double kArmijo = 1e-4;
@@ -31,7 +37,8 @@ class Reduction {
       : problem_(problem), monitor_(monitor), system_(problem), state_(system_.start()) {
     energy_ = system_.distortion(state_.x);
     best_ = state_;
-    stiffness_ = 2 * kLeastPrice * system_.range();
+    firmness_ = bounded() ? kFirmness : kOpenFirmness;
+    stiffness_ = firmness_ * kLeastPrice * system_.range();
     update_pe();
   }
 
@@ -92,7 +99,7 @@ class Reduction {
     std::vector<Vec2> climb = system_.pe_gradient;
     system_.matrix.solve(climb);
     // Too distorted: hold the PE and relax before climbing on.
-    const double climb_limit = within_distortion() ? kClimb : 0;
+    const double climb_limit = within_distortion() ? std::clamp(0.2 * deficit(), kLeastClimb, kMostClimb) : 0;
     const double wanted = std::min(climb_limit, deficit()) - dot(system_.pe_gradient, step_);
     price_ = std::max(0.0, wanted / dot(system_.pe_gradient, climb));
     for (std::size_t i = 0; i < step_.size(); ++i) step_[i] += price_ * climb[i];
@@ -133,14 +140,18 @@ class Reduction {
   void adapt() {
     if (fraction_ >= 0.5) damping_ = std::max(kLeastDamping, 0.5 * damping_);
     else if (fraction_ < 0.1) damping_ = std::min(kMostDamping, 4 * damping_);
-    const double wanted = 2 * std::max(price_, kLeastPrice) * system_.range();
+    if (bounded() && deficit() < kNearTarget) firmness_ = std::max(kSoftFirmness, kSoftening * firmness_);
+    const double wanted = firmness_ * std::max(price_, kLeastPrice) * system_.range();
     stiffness_ = std::clamp(wanted, 0.5 * stiffness_, 2 * stiffness_);
   }
+
+  /// The barrier has reached its final softness, or nothing presses on it.
+  bool settled() const { return !bounded() || price_ == 0 || firmness_ == kSoftFirmness; }
 
   void count_progress(double energy_before, double pe_before) {
     const bool on_target = !bounded() || (std::abs(deficit()) < 1e-4 || (holds_bound() && price_ == 0));
     const bool quiet = std::abs(energy_ - energy_before) < kConverged * (energy_ - 1) && fraction_ > 0.1;
-    calm_ = on_target && quiet ? calm_ + 1 : 0;
+    calm_ = on_target && quiet && settled() ? calm_ + 1 : 0;
     expensive_ = price_ > problem_.max_price ? expensive_ + 1 : 0;
     distorted_ = !within_distortion() && quiet ? distorted_ + 1 : 0;
     const bool moved = std::abs(energy_ - energy_before) > 1e-5 * (energy_ - 1) || pe_ - pe_before > 1e-5 * pe_;
@@ -178,7 +189,7 @@ class Reduction {
   ReduceState state_, best_;
   std::vector<Vec2> step_;
   double energy_ = 0, pe_ = 0, price_ = 0, fraction_ = 1;
-  double stiffness_ = 0, damping_ = 1e-3;
+  double firmness_ = 0, stiffness_ = 0, damping_ = 1e-3;
   double best_energy_ = std::numeric_limits<double>::infinity(), best_pe_ = -1, best_price_ = 0;
   bool best_holds_ = false;
   int iteration_ = 0, calm_ = 0, idle_ = 0, expensive_ = 0, distorted_ = 0;

@@ -55,9 +55,9 @@ void Outcome::measure_input(const ChartSet& set) {
   show("input", charts_as_placed(set));
 }
 
-void Outcome::re_embedded(int chart, const Validity& why) {
+void Outcome::re_embedded(int chart) {
   result_.charts[chart].re_embedded = true;
-  result_.repairs.push_back("chart " + std::to_string(chart) + ": embedded anew, for " + why.problem);
+  result_.repairs.push_back("chart " + std::to_string(chart) + ": overlapped or touched itself, embedded anew");
 }
 
 void Outcome::squeezed(const Squeezed& squeezed) {

@@ -19,7 +19,7 @@ class Outcome {
   void begin_stage(const std::string& stage, double from, double to);
   void measure_input(const ChartSet& set);
   const Measures& before() const { return result_.before; }
-  void re_embedded(int chart, const Validity& why);
+  void re_embedded(int chart);
   void squeezed(const Squeezed& squeezed);
   /// Hands the charts to the debug sink, where there is one.
   void show(const std::string& stage, const std::vector<Chart>& charts);
