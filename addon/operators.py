@@ -53,7 +53,7 @@ class UV_OT_atlas_refine(bpy.types.Operator):
     def invoke(self, context, _event):
         if bpy.app.background:
             return self.execute(context)
-        self._task = self._start(context)
+        self._task = self._start(context, beside_window=True)
         if self._task is None:
             return {"CANCELLED"}
         tasks.running = self._task
@@ -78,10 +78,10 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         """Blender ends the operator: another file, a closed window."""
         self._leave(context)
 
-    def _start(self, context):
+    def _start(self, context, beside_window=False):
         obj = context.active_object
         try:
-            return tasks.Task(obj, self.uv_map, to_options(self))
+            return tasks.Task(obj, self.uv_map, to_options(self), beside_window)
         except tasks.FAILURES as error:
             self._report_failure(obj.name, error)
             return None
@@ -118,9 +118,10 @@ class UV_OT_atlas_refine(bpy.types.Operator):
 def draw_options(layout, holder):
     """The options, in the panel and in the redo panel alike."""
     layout.prop(holder, "pe_bound")
-    row = layout.row()
-    row.enabled = False
-    row.prop(holder, "sigma", text="Sigma (Rectangles)")
+    column = layout.column(align=True)
+    column.enabled = False
+    column.prop(holder, "sigma")
+    column.label(text="Sigma is for Rectangles only")
     layout.prop(holder, "density")
     layout.prop(holder, "aspect")
     layout.prop(holder, "gap")

@@ -48,8 +48,8 @@ def other_properties():
             default=Options.aspect,
         ),
         "density": EnumProperty(
-            name="Texel Density",
-            description="Relative scale of the charts",
+            name="Density",
+            description="Relative texel density of the charts",
             items=[
                 ("KEEP", "Keep", "Each chart keeps the relative scale it has"),
                 ("EQUAL", "Equal", "One texel density for the whole surface"),

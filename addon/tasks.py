@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One refinement: read the mesh, run the engine beside Blender, write the UVs. At most one runs with a window's progress."""
 
+import os
+
 import bpy
 
 from .bridge import mesh as bridge
@@ -19,13 +21,14 @@ last = None
 class Task:
     """Starts at once. Holds names, not Blender's data: undo may replace that meanwhile."""
 
-    def __init__(self, obj, uv_map, options):
+    def __init__(self, obj, uv_map, options, beside_window=False):
         bridge.check_writable(obj)
         self.object_name = obj.name
         self.uv_map = bridge.find_uv_map(obj.data, uv_map)
         self.uneven_scale = bridge.has_uneven_scale(obj)
         self.atlas = bridge.read_atlas(obj, self.uv_map)
-        self.job = start(*self.atlas.as_tuple(), name=obj.name, **options.engine_arguments())
+        threads = max(1, (os.cpu_count() or 1) - 1) if beside_window else 0  # one core is left to the window
+        self.job = start(*self.atlas.as_tuple(), name=obj.name, threads=threads, **options.engine_arguments())
 
     def finish(self):
         """Waits for the engine, writes the UVs and returns the result; raises one of FAILURES with the mesh as it was."""

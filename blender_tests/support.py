@@ -30,7 +30,8 @@ def add_mesh(arrays=None, name="Loose", uv_map="UVMap"):
     set_uvs(layer, corner_uvs)
     obj = bpy.data.objects.new(name, mesh)
     bpy.context.collection.objects.link(obj)
-    bpy.ops.object.select_all(action="DESELECT")
+    for other in bpy.context.view_layer.objects:
+        other.select_set(False)
     obj.select_set(True)
     bpy.context.view_layer.objects.active = obj
     return obj

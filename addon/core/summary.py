@@ -12,15 +12,15 @@ def headline(result):
 
 
 def figures(result):
-    """(name, before, after) rows for the panel."""
+    """(name, before, after) rows for the panel; short names, for the column is narrow."""
     before, after = result.before, result.after
     return [
         ("PE", f"{before.pe_fixed_aspect:.3f}", f"{after.pe_fixed_aspect:.3f}"),
         ("E_d", f"{before.distortion:.4f}", f"{after.distortion:.4f}"),
-        ("Stretch 99 %", f"{before.stretch_99:.3f}", f"{after.stretch_99:.3f}"),
+        ("Stretch", f"{before.stretch_99:.3f}", f"{after.stretch_99:.3f}"),
         ("Gap", _percent(before.gap_between), _percent(after.gap_between)),
         ("Charts", str(before.chart_count), str(after.chart_count)),
-        ("Seam edges", str(before.seam_edges), str(after.seam_edges)),
+        ("Seams", str(before.seam_edges), str(after.seam_edges)),
     ]
 
 

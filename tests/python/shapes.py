@@ -4,7 +4,8 @@ import numpy as np
 
 
 def grid(columns, rows, origin=(0.0, 0.0), scale=1.0, bend=0.0):
-    """One chart: a grid of unit quads on the surface; `bend` turns it into an arc (in UV only) of that many radians."""
+    """One chart: a grid of unit quads on the surface; `bend` turns it into an arc (in UV only) of that many radians;
+    columns / bend must be larger than rows."""
     x, y = np.meshgrid(np.arange(columns + 1.0), np.arange(rows + 1.0))
     positions = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
     uvs = positions[:, :2].copy()
@@ -39,3 +40,14 @@ def loose():
 def tight():
     """One square chart that fills its box."""
     return join(grid(8, 8))
+
+
+def arcs(count, columns):
+    """Long strips in UV arcs of different bend; much work for the engine at a high bound."""
+    rows = columns // 10
+    return join(*(grid(columns, rows, origin=(0.0, 2.0 * columns * i), bend=2.0 + 0.3 * i) for i in range(count)))
+
+
+def slow():
+    """Several seconds of work at a bound of 0.95."""
+    return arcs(6, 120)

@@ -27,8 +27,7 @@ def test_a_job_raises_what_refine_raises():
 
 
 def test_cancel_ends_a_long_job_within_half_a_second():
-    arrays = shapes.join(*(shapes.grid(60, 12, origin=(0.0, 90.0 * i), bend=5.0) for i in range(6)))
-    job = atlas_refine.start(*arrays, pe_bound=0.95)
+    job = atlas_refine.start(*shapes.slow(), pe_bound=0.95)
     time.sleep(0.2)
     assert not job.done
     began = time.monotonic()
@@ -41,9 +40,9 @@ def test_cancel_ends_a_long_job_within_half_a_second():
 
 def test_a_job_that_nobody_waits_for_stops_with_its_object_and_with_the_process():
     began = time.monotonic()
-    job = atlas_refine.start(*shapes.join(*(shapes.grid(60, 12, origin=(0.0, 90.0 * i), bend=5.0) for i in range(6))), pe_bound=0.95)
+    job = atlas_refine.start(*shapes.slow(), pe_bound=0.95)
     del job
     assert time.monotonic() - began < 2.0
 
-    code = "import conftest, atlas_refine, shapes; job = atlas_refine.start(*shapes.loose(), pe_bound=0.95)"
+    code = "import conftest, atlas_refine, shapes; job = atlas_refine.start(*shapes.slow(), pe_bound=0.95)"
     subprocess.run([sys.executable, "-c", code], cwd=sys.path[0], check=True, timeout=20)
