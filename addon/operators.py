@@ -57,6 +57,7 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         if self._task is None:
             return {"CANCELLED"}
         tasks.running = self._task
+        self._shown = ""
         self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
@@ -103,9 +104,12 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         self.report({"INFO" if cancelled else "ERROR"}, text if object_name in text else f"{object_name}: {text}")
 
     def _show_progress(self, context, progress):
-        efficiency = f", PE {progress.pe:.3f}" if progress.pe else ""
-        context.workspace.status_text_set(f"Refining: {progress.stage} {100 * progress.fraction:.0f} %{efficiency} (Esc stops)")
-        redraw_panels(context)
+        efficiency = f", PE {progress.pe:.2f}" if progress.pe else ""
+        text = f"Refining: {progress.stage} {100 * progress.fraction:.0f} %{efficiency} (Esc stops)"
+        if text != self._shown:  # each redraw costs the window time
+            self._shown = text
+            context.workspace.status_text_set(text)
+            redraw_panels(context)
 
     def _leave(self, context):
         tasks.stop_running()
@@ -136,7 +140,9 @@ def redraw_panels(context):
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "IMAGE_EDITOR":
-                area.tag_redraw()
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()
 
 
 @bpy.app.handlers.persistent
