@@ -1,0 +1,206 @@
+"""One file at one or several bounds: the program's run, the independent check, the charts' own optimum, as table rows."""
+
+import json
+import math
+import os
+import subprocess
+import tempfile
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import check_atlas
+
+PROGRAM_LIMIT_S = 600
+HELPER_LIMIT_S = 900
+
+
+@dataclass(frozen=True)
+class Goal:
+    """A bound and the shape of the box it is measured in."""
+
+    bound: float
+    aspect: str = "free"
+
+    @property
+    def name(self):
+        return f"{self.bound:.2f} {self.aspect}"
+
+
+@dataclass
+class Row:
+    """Figures of one file at one bound; `reason` says why there are none, or what the check found."""
+
+    folder: str
+    file: str
+    goal: str
+    triangles: int = 0
+    charts: int = 0
+    reason: str = ""
+    how: str = "failed"
+    valid: bool = False
+    met: bool = False
+    added_seams: int | None = None
+    re_embedded: int = 0  # charts that overlapped themselves
+    pe_in: float = math.nan
+    pe: float = math.nan
+    e_d_in: float = math.nan
+    e_d: float = math.nan
+    optimum: float = math.nan  # E_d of the charts under the engine without a bound
+    stretch_99: float = math.nan
+    stretch_max: float = math.nan
+    gap: float = math.nan  # guaranteed between charts, fraction of the box diagonal
+    gap_within: float = math.nan  # measured
+    price: float = math.nan
+    iterations: int = 0
+    seconds: float = math.nan  # inside refine()
+    cpu_seconds: float = math.nan  # the whole process, files read and written as well
+    newton_seconds: float = math.nan  # one Newton iteration with stock Eigen
+
+    @property
+    def ok(self):
+        return self.valid and self.met and self.added_seams == 0
+
+    @property
+    def extra(self):
+        return self.e_d - self.optimum
+
+    @property
+    def time(self):
+        """Time of refine() as an idle machine would have it: other programs lengthen `seconds` only."""
+        return min(self.seconds, self.cpu_seconds)
+
+    @property
+    def newton_multiple(self):
+        return self.time / self.newton_seconds
+
+    def as_json(self):
+        numbers = asdict(self) | {"ok": self.ok, "extra": self.extra, "newton_multiple": self.newton_multiple}
+        return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in numbers.items()}
+
+
+@dataclass(frozen=True)
+class Run:
+    """How one call of the program ended."""
+
+    exit_code: int
+    message: str
+    report: dict
+    cpu_seconds: float
+
+    @property
+    def done(self):
+        return self.exit_code == 0
+
+
+def refine(program, mesh, output, goal, threads=1):
+    """Runs the program; its report lies beside `output`."""
+    report = output.with_suffix(".json")
+    options = ["--pe-bound", str(goal.bound), "--aspect", goal.aspect, "--threads", str(threads), "--report", report]
+    command = [program, mesh, "-o", output, *options]
+    before = os.times()
+    try:
+        run = subprocess.run(command, capture_output=True, timeout=PROGRAM_LIMIT_S, check=False)
+    except subprocess.TimeoutExpired:
+        return Run(-1, f"no end after {PROGRAM_LIMIT_S} s", {}, math.nan)
+    after = os.times()
+    cpu = after.children_user + after.children_system - before.children_user - before.children_system
+    message = run.stderr.decode(errors="replace").strip().replace(f"{mesh}: ", "").removeprefix("atlas-refine: ")
+    if run.returncode == 0:
+        return Run(0, message, json.loads(report.read_text()), cpu)
+    return Run(run.returncode, f"exit {run.returncode}: {message or 'no message'}", {}, cpu)
+
+
+def number(value):
+    return math.nan if value is None else value
+
+
+def fill_from_report(row, report):
+    before, after = report["before"], report["after"]
+    row.how, row.charts = report["intervention"], after["chart_count"]
+    row.re_embedded = sum(chart["re_embedded"] for chart in report["charts"])
+    row.pe_in, row.pe = number(before["pe_fixed_aspect"]), number(after["pe_fixed_aspect"])
+    row.e_d_in, row.e_d = number(before["distortion"]), number(after["distortion"])
+    row.stretch_99, row.stretch_max = number(after["stretch_99"]), number(after["stretch_max"])
+    row.gap, row.gap_within = report["gap"]["value"], number(after["gap_within"])
+    row.price, row.iterations = number(report["price"]), report["iterations"]
+    row.seconds = report["seconds"]["refine"]
+
+
+def gap_to_check(report, goal):
+    """The guaranteed gap as a fraction of the charts' own bounding box, which the checker measures against."""
+    if goal.aspect == "free" or report["intervention"] == "unchanged":
+        return report["gap"]["value"]
+    width, height = report["after"]["box_width"], report["after"]["box_height"]
+    return report["gap"]["value"] * max(width, height) * math.sqrt(2) / math.hypot(width, height)
+
+
+def fill_from_check(row, mesh, output, goal, report):
+    aspect = 1.0 if goal.aspect == "square" else 0.0
+    found = check_atlas.check(mesh, output, goal.bound, aspect, gap_to_check(report, goal))
+    problems = [problem for problem in found["problems"] if not problem.startswith("PE:")]
+    row.triangles, row.added_seams = found.get("triangles", 0), found.get("added_seams")
+    row.valid, row.met = not problems, found["ok"] or "PE" not in " ".join(found["problems"])
+    row.reason = "; ".join(found["problems"])
+
+
+def count_triangles(mesh):
+    """Of the input, for rows that have no result."""
+    lines = (line.split(b"#")[0].split() for line in Path(mesh).read_bytes().splitlines() if line.startswith(b"f"))
+    return sum(len(tokens) - 3 for tokens in lines)
+
+
+def fill_from_helper(helper, mesh, results):
+    """The charts' own optimum, the lesser of that found from the input and from the result, and the stock Newton iteration."""
+    command = [helper, mesh]
+    for _, output, report in results:
+        command += [output, repr(report["gap"]["value"]), report["gap"]["unit"]]
+    try:
+        run = subprocess.run(command, capture_output=True, timeout=HELPER_LIMIT_S, check=True)
+        answer = json.loads(run.stdout)
+    except (subprocess.SubprocessError, ValueError) as error:
+        answer = {"input": {}, "results": [{"error": f"optimum: {error}"} for _ in results]}
+    for (row, _, _), result in zip(results, answer["results"], strict=True):
+        optima = [part["optimum"] for part in (answer["input"], result) if part.get("optimum") is not None]
+        row.optimum = min(optima, default=math.nan)
+        row.newton_seconds = number(result.get("newton_seconds"))
+        if "error" in result:
+            row.reason = "; ".join(filter(None, [row.reason, result["error"]]))
+
+
+def measure_file(build, folder, mesh, goals):
+    """One row per goal."""
+    with tempfile.TemporaryDirectory(prefix="atlas-refine-bench-") as scratch:
+        rows, results = [], []
+        for k, goal in enumerate(goals):
+            row = Row(folder, mesh.stem, goal.name)
+            rows.append(row)
+            output = Path(scratch) / f"{k}.obj"
+            run = refine(build / "atlas-refine", mesh, output, goal)
+            row.cpu_seconds = run.cpu_seconds
+            if not run.done:
+                row.reason, row.triangles = run.message, count_triangles(mesh)
+                continue
+            fill_from_report(row, run.report)
+            fill_from_check(row, mesh, output, goal, run.report)
+            results.append((row, output, run.report))
+        if results:
+            fill_from_helper(build / "atlas_refine_bench", mesh, results)
+        return rows
+
+
+def outputs_differ(build, mesh, goal):
+    """Empty where two runs with one thread and one with two give the same bytes; else what differs. And their wall times."""
+    with tempfile.TemporaryDirectory(prefix="atlas-refine-bench-") as scratch:
+        texts, seconds = [], []
+        for k, threads in enumerate((1, 1, 2)):
+            output = Path(scratch) / f"{k}.obj"
+            started = time.monotonic()
+            run = refine(build / "atlas-refine", mesh, output, goal, threads)
+            seconds.append(time.monotonic() - started)
+            texts.append(output.read_bytes() if run.done else run.message)
+        if not isinstance(texts[0], bytes):
+            return texts[0], seconds
+        if texts[0] != texts[1]:
+            return "two runs differ", seconds
+        return ("" if texts[0] == texts[2] else "1 and 2 threads differ"), seconds
