@@ -5,6 +5,8 @@ operators.py and panels.py are thin; core/ knows no bpy; bridge/ holds every acc
 between Blender versions; native/ (added by `./dev package`) is the Python package with the engine.
 """
 
+from . import operators, panels, preferences, settings
+
 bl_info = {
     "name": "Atlas Refine",
     "author": "Atlas Refine contributors",
@@ -14,8 +16,6 @@ bl_info = {
     "description": "Bring a UV map to a packing efficiency bound",
     "category": "UV",
 }
-
-from . import operators, panels, preferences, settings
 
 MODULES = (preferences, settings, operators, panels)
 

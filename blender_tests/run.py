@@ -1,7 +1,7 @@
 """Runs one test file inside Blender and writes its counts: after `--`, the file and the JSON to write.
 
-    blender -b --factory-startup --python-exit-code 1 --python blender_tests/run.py -- FILE RESULT.json
-    python3 blender_tests/run.py -- FILE RESULT.json          (with the bpy module)
+blender -b --factory-startup --python-exit-code 1 --python blender_tests/run.py -- FILE RESULT.json
+python3 blender_tests/run.py -- FILE RESULT.json          (with the bpy module)
 """
 
 import json

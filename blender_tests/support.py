@@ -1,5 +1,7 @@
 """What the tests inside Blender share: the add-on, generated meshes, and a snapshot of everything a mesh holds."""
 
+import itertools
+
 import addon_utils
 import bpy
 import numpy as np
@@ -24,7 +26,7 @@ def add_mesh(arrays=None, name="Loose", uv_map="UVMap"):
     """A new active object from shapes' arrays, three loose charts where none are given."""
     positions, face_offsets, corner_vertices, corner_uvs = shapes.loose() if arrays is None else arrays
     mesh = bpy.data.meshes.new(name)
-    faces = [corner_vertices[b:e].tolist() for b, e in zip(face_offsets[:-1], face_offsets[1:], strict=True)]
+    faces = [corner_vertices[b:e].tolist() for b, e in itertools.pairwise(face_offsets)]
     mesh.from_pydata(positions.tolist(), [], faces)
     layer = mesh.uv_layers.new(name=uv_map)
     set_uvs(layer, corner_uvs)

@@ -1,4 +1,4 @@
-"""Runs inside Blender for the demo: seams as an artist would mark them, Blender's own unwrap, the operator, measures, drawings."""
+"""Runs inside Blender for the demo: an artist's seams, Blender's own unwrap, the operator, measures and drawings."""
 
 import pathlib
 import sys
@@ -136,7 +136,8 @@ def main(out):
     atlas = arrays(suzanne.data)
     after = atlas_refine.measure(*atlas)
     validity = atlas_refine.validate(*atlas)
-    assert validity.valid and after.pe >= PE_BOUND, f"PE {after.pe}: {validity.problem}"
+    assert validity.valid, validity.problem
+    assert after.pe >= PE_BOUND
     draw(out / "after.svg", atlas, f"Atlas Refine: PE {after.pe:.3f}, E_d {after.distortion:.4f}, no seam added")
     (out / "table.txt").write_text(table(suzanne.data, before, after, seconds))
     bpy.ops.wm.save_as_mainfile(filepath=str(out / "suzanne.blend"))

@@ -1,5 +1,6 @@
 """refine(): arrays in, a valid atlas at the bound out, or one error."""
 
+import itertools
 import threading
 import time
 
@@ -12,7 +13,7 @@ import shapes
 def uv_area(face_offsets, corner_uvs):
     """Sum of the faces' UV areas, by the shoelace formula."""
     area = 0.0
-    for begin, end in zip(face_offsets[:-1], face_offsets[1:], strict=True):
+    for begin, end in itertools.pairwise(face_offsets):
         u, v = corner_uvs[begin:end].T
         area += 0.5 * np.sum(u * np.roll(v, -1) - np.roll(u, -1) * v)
     return area
@@ -131,7 +132,8 @@ def test_progress_rises_and_other_threads_run_meanwhile():
     fractions = [progress.fraction for progress in seen]
     assert fractions
     assert fractions == sorted(fractions)
-    assert 0 <= fractions[0] and fractions[-1] <= 1
+    assert fractions[0] >= 0
+    assert fractions[-1] <= 1
     assert all(isinstance(progress.stage, str) for progress in seen)
     assert ticks[0] > 1
 
