@@ -10,18 +10,26 @@
 namespace atlas_refine {
 
 void BlockLdlt::analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node) {
-  std::vector<std::pair<int, int>> sorted;
-  sorted.reserve(edges.size());
-  for (const auto& [i, j] : edges) sorted.emplace_back(std::min(i, j), std::max(i, j));
-  std::sort(sorted.begin(), sorted.end());
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  // Bucket by the smaller node, then sort and thin out each short row.
+  std::vector<int> start(node_count + 1, 0);
+  for (const auto& [i, j] : edges) ++start[std::min(i, j) + 1];
+  for (int i = 0; i < node_count; ++i) start[i + 1] += start[i];
+  std::vector<int> fill(start.begin(), start.end() - 1);
+  row_nodes_.resize(edges.size());
+  for (const auto& [i, j] : edges) row_nodes_[fill[std::min(i, j)]++] = std::max(i, j);
   row_start_.assign(node_count + 1, 0);
-  row_nodes_.resize(sorted.size());
-  for (const auto& edge : sorted) ++row_start_[edge.first + 1];
-  for (int i = 0; i < node_count; ++i) row_start_[i + 1] += row_start_[i];
-  for (std::size_t k = 0; k < sorted.size(); ++k) row_nodes_[k] = sorted[k].second;
+  int kept = 0;
+  for (int i = 0; i < node_count; ++i) {
+    const auto first = row_nodes_.begin() + start[i], last = row_nodes_.begin() + start[i + 1];
+    std::sort(first, last);
+    for (auto it = first; it != last; ++it) {
+      if (it == first || *it != *(it - 1)) row_nodes_[kept++] = *it;
+    }
+    row_start_[i + 1] = kept;
+  }
+  row_nodes_.resize(kept);
   diagonal.assign(node_count, Mat2::Zero());
-  off_diagonal.assign(sorted.size(), Mat2::Zero());
+  off_diagonal.assign(kept, Mat2::Zero());
   order(last_node);
   permute_pattern();
   analyse_elimination_tree();
@@ -42,21 +50,21 @@ void BlockLdlt::set_zero() {
 
 void BlockLdlt::order(int last_node) {
   const int n = node_count();
-  std::vector<Eigen::Triplet<char>> triplets;
-  triplets.reserve(2 * row_nodes_.size() + n);
+  // One triangle and the diagonal, which the ordering expects, without the last node's couplings, as compressed columns.
+  std::vector<int> starts(n + 1, 0), rows;
+  rows.reserve(row_nodes_.size() + n);
   for (int i = 0; i < n; ++i) {
-    triplets.emplace_back(i, i, 1);
-    if (i == last_node) continue;
-    for (int k = row_start_[i]; k < row_start_[i + 1]; ++k) {
-      if (row_nodes_[k] == last_node) continue;
-      triplets.emplace_back(i, row_nodes_[k], 1);
-      triplets.emplace_back(row_nodes_[k], i, 1);
+    rows.push_back(i);
+    for (int k = row_start_[i]; i != last_node && k < row_start_[i + 1]; ++k) {
+      if (row_nodes_[k] != last_node) rows.push_back(row_nodes_[k]);
     }
+    starts[i + 1] = static_cast<int>(rows.size());
   }
-  Eigen::SparseMatrix<char> graph(n, n);
-  graph.setFromTriplets(triplets.begin(), triplets.end(), [](char a, char) { return a; });
+  const std::vector<char> ones(rows.size(), 1);
+  const Eigen::SparseMatrix<char> graph = Eigen::Map<const Eigen::SparseMatrix<char>>(n, n, static_cast<Eigen::Index>(rows.size()),
+                                                                                      starts.data(), rows.data(), ones.data());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-  Eigen::AMDOrdering<int>()(graph, permutation);
+  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), permutation);
   order_.assign(permutation.indices().data(), permutation.indices().data() + n);
   if (last_node >= 0) {
     order_.erase(std::find(order_.begin(), order_.end(), last_node));
