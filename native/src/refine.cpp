@@ -29,11 +29,11 @@ class Refinement {
   RefineResult run() {
     outcome_.begin_stage("input", 0, 0.02);
     ChartSet set = split_charts(atlas_);
-    require_no_defects(atlas_, set);
+    require_no_flips(atlas_, set);
     outcome_.measure_input(set);
     if (holds_already(set)) return outcome_.unchanged(gap_);
+    const bool own_layout = !embed_where_needed(set) && certify_charts(set.charts).valid();
     charts_ = std::move(set.charts);
-    const bool own_layout = embed_overlapping() == 0 && certify_charts(charts_).valid();
     outcome_.begin_stage("pack", 0.2, 0.25);
     const bool scaled = set_density(charts_, options_.density);
     const std::vector<Chart> placed = place_anew();
@@ -42,9 +42,9 @@ class Refinement {
   }
 
  private:
-  bool gap_kept(const std::vector<Chart>& charts) const {
+  bool gap_kept(const std::vector<Chart>& charts, double factor) const {
     const Vec2 box = box_of_aspect(uv_box(charts), options_.box_aspect).size();
-    return gap_between_charts(charts) >= gap_.length(box);
+    return gap_between_charts(charts) >= factor * gap_.length(box);
   }
   double pe(const std::vector<Chart>& charts) const {
     return uv_area(charts) / box_of_aspect(uv_box(charts), options_.box_aspect).area();
@@ -55,20 +55,21 @@ class Refinement {
   bool holds_already(const ChartSet& set) const {
     const Measures& before = outcome_.before();
     return before.pe_fixed_aspect >= options_.pe_bound && distortion_allowed(before.distortion) && validate_split(set).valid() &&
-           (!options_.gap || gap_kept(set.charts));
+           (!options_.gap || gap_kept(set.charts, 1));
   }
 
-  int embed_overlapping() {
+  /// Charts that overlap themselves, or hold polygons that do, are embedded anew; true where there was one.
+  bool embed_where_needed(ChartSet& set) {
     outcome_.begin_stage("embed", 0.02, 0.2);
-    int count = 0;
-    for (int c = 0; c < static_cast<int>(charts_.size()); ++c) {
-      monitor_.report(static_cast<double>(c) / charts_.size());
-      if (certify_charts({charts_[c]}).valid()) continue;
-      charts_[c] = re_embed(charts_[c], c, threads_, monitor_);
+    bool any = false;
+    for (int c = 0; c < static_cast<int>(set.charts.size()); ++c) {
+      monitor_.report(static_cast<double>(c) / set.charts.size());
+      if (certify_charts({set.charts[c]}).valid()) continue;
+      set.charts[c] = re_embed(set.charts[c], c, threads_, monitor_);
       outcome_.re_embedded(c);
-      ++count;
+      any = true;
     }
-    return count;
+    return any;
   }
 
   std::vector<Chart> place_anew() {
@@ -85,7 +86,7 @@ class Refinement {
   RefineResult squeezed(bool own_layout, const std::vector<Chart>& placed) {
     outcome_.begin_stage("squeeze", 0.25, 0.95);
     std::vector<std::vector<Chart>> starts = {placed};
-    if (own_layout && gap_kept(charts_)) starts.push_back(charts_);
+    if (own_layout && gap_kept(charts_, kStartGap)) starts.push_back(charts_);
     Squeezed best = squeeze(starts, squeeze_options(options_, threads_), monitor_);
     outcome_.squeezed(best);
     return outcome_.certified(Intervention::Squeezed, best.charts, best.gap);

@@ -164,12 +164,17 @@ class Splitter {
 
   void add_defect(int face, const std::vector<int>& corners) {
     bool negative = false, zero = false;
+    double doubled = 0;
     for (std::size_t i = 2; i < corners.size(); ++i) {
       const int sign = orientation(uv(corners[0]), uv(corners[i - 1]), uv(corners[i]));
       negative = negative || sign < 0;
       zero = zero || sign == 0;
+      doubled += doubled_area(uv(corners[0]), uv(corners[i - 1]), uv(corners[i]));
     }
-    set_.defects.push_back({face_charts_[face], face, zero && !negative});
+    FaceDefect::Kind kind = FaceDefect::Kind::Flipped;
+    if (zero && !negative) kind = FaceDefect::Kind::ZeroArea;
+    else if (corners.size() > 3 && doubled > 0) kind = FaceDefect::Kind::CrossesItself;
+    set_.defects.push_back({face_charts_[face], face, kind});
   }
 
   /// Triangles without a shape in space take the one they have in the UV plane, at the scale of their chart, or an equilateral.
@@ -251,14 +256,28 @@ std::vector<Chart> charts_as_placed(const ChartSet& set) {
   return charts;
 }
 
-void require_no_defects(const Atlas& atlas, const ChartSet& set) {
-  if (set.defects.empty()) return;
-  const FaceDefect& first = set.defects.front();
-  std::string message = message_prefix(atlas) + "face " + std::to_string(first.face) + " of chart " +
-                        std::to_string(first.chart) +
-                        (first.zero_area ? " has no area in the UV map" : " is flipped or crosses itself in the UV map");
-  if (set.defects.size() > 1) message += " (and " + std::to_string(set.defects.size() - 1) + " more such faces)";
-  throw RefineError(ErrorCode::BadInput, "input", message, first.chart, first.face);
+std::string describe(const FaceDefect& defect) {
+  const std::string face = "face " + std::to_string(defect.face) + " of chart " + std::to_string(defect.chart);
+  switch (defect.kind) {
+    case FaceDefect::Kind::Flipped: return face + " is flipped in the UV map";
+    case FaceDefect::Kind::ZeroArea: return face + " has no area in the UV map";
+    case FaceDefect::Kind::CrossesItself: return face + " crosses itself in the UV map";
+  }
+  return face;
+}
+
+void require_no_flips(const Atlas& atlas, const ChartSet& set) {
+  const FaceDefect* first = nullptr;
+  int count = 0;
+  for (const FaceDefect& defect : set.defects) {
+    if (defect.kind == FaceDefect::Kind::CrossesItself) continue;
+    if (!first) first = &defect;
+    ++count;
+  }
+  if (!first) return;
+  std::string message = message_prefix(atlas) + describe(*first);
+  if (count > 1) message += " (and " + std::to_string(count - 1) + " more such faces)";
+  throw RefineError(ErrorCode::BadInput, "input", message, first->chart, first->face);
 }
 
 }  // namespace atlas_refine

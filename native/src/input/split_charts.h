@@ -1,6 +1,7 @@
 // Input to charts (section 3, "Inputs"): UV connectivity, mirrored charts turned, flips refused or counted.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "geometry/chart.h"
@@ -13,11 +14,20 @@ struct CornerRef {
   int vertex;  ///< local index into Chart::uvs
 };
 
+/// A face that is not positive in the UV plane.
 struct FaceDefect {
+  enum class Kind {
+    Flipped,         ///< turned against the rest of its chart
+    ZeroArea,        ///< a point or a line in the UV plane
+    CrossesItself,   ///< a polygon of positive area whose outline is not simple; its triangles are a fan
+  };
   int chart;
   int face;
-  bool zero_area;  ///< else: flipped against the rest of its chart, or its outline crosses itself
+  Kind kind;
 };
+
+/// "face 7 of chart 0 is flipped in the UV map"
+std::string describe(const FaceDefect& defect);
 
 /// The input atlas as charts. Chart UVs are the input's values, except that mirrored charts are turned over (u negated).
 struct ChartSet {
@@ -39,7 +49,8 @@ ChartSet split_charts(const Atlas& atlas);
 /// The same charts where the input's UVs lie: mirrored charts are turned back, their triangles still counterclockwise.
 std::vector<Chart> charts_as_placed(const ChartSet& set);
 
-/// Throws RefineError(BadInput) that names chart and face of the first defect, and how many there are.
-void require_no_defects(const Atlas& atlas, const ChartSet& set);
+/// Throws RefineError(BadInput) that names chart and face of the first flipped or zero-area face, and how many there are.
+/// Polygons that cross themselves pass: embedding their chart anew mends them.
+void require_no_flips(const Atlas& atlas, const ChartSet& set);
 
 }  // namespace atlas_refine

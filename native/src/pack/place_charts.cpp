@@ -10,8 +10,8 @@
 namespace atlas_refine {
 namespace {
 
-// What is kept beyond the gap, so that rounding to single precision cannot lose it.
-constexpr double kStoredGap = 1.0005;
+// What is kept beyond the gap: the squeeze starts in a slightly larger box, and rounding to single precision must not lose it.
+constexpr double kMoreThanGap = 1.0065;
 
 Outline outline_of(const Chart& chart) {
   Outline outline;
@@ -48,7 +48,7 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
   pack.gap = options.gap.length(likely_box(area, options.box_aspect));
   Packing packing = pack_charts(outlines, areas, pack);
   // A larger gap makes a larger box; a little more than asked each time ends this after one or two rounds.
-  for (double more = 1.001; charts.size() > 1 && pack.gap < kStoredGap * options.gap.length(packing.box.size()); more += 0.01) {
+  for (double more = 1.007; charts.size() > 1 && pack.gap < kMoreThanGap * options.gap.length(packing.box.size()); more += 0.01) {
     pack.gap = more * options.gap.length(packing.box.size());
     packing = pack_charts(outlines, areas, pack);
   }

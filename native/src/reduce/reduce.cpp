@@ -45,6 +45,7 @@ class Reduction {
   ReduceResult run() {
     ReduceStatus status = ReduceStatus::OutOfTime;
     keep_if_best();
+    if (!std::isfinite(energy_) || !std::isfinite(system_.barrier(state_, system_.contacts(state_, {})))) return result(ReduceStatus::Stalled);
     for (iteration_ = 0; iteration_ < problem_.max_iterations; ++iteration_) {
       if (monitor_) monitor_({iteration_, pe_, energy_, price_, fraction_});
       if (finished(status)) break;

@@ -10,8 +10,11 @@
 
 namespace atlas_refine {
 
+/// The engine starts in a box that is a little larger than the charts' own, and the gap follows the box.
+inline constexpr double kStartGap = 1.006;
+
 struct ReduceProblem {
-  const std::vector<Chart>& charts;  ///< placed, free of flips and crossings; the start
+  const std::vector<Chart>& charts;  ///< placed, free of flips and crossings, kStartGap times the gap apart; the start
   Gap gap;                           ///< smallest distance between charts; within a chart the same, or the start's own if less
   double box_aspect = 0;             ///< width / height, 0 = free
   double pe_target = 0;              ///< in (0, 1), below or above the present PE; 0 = no box: least distortion in open space

@@ -150,9 +150,9 @@ std::vector<Contact> ReduceSystem::contacts(const ReduceState& state, const std:
       const double arc = boundary_.arc_between(pair.point, pair.edge);
       contact.floor_fraction = arc < far_arc ? 0 : own_floor_[pair.point];
       contact.range = std::min(range_, kRangePerArc * arc);
+      // Borders that have turned to face each other below the floor need not part again.
+      if (closest.distance <= contact.floor_fraction * unit) contact.floor_fraction = 0.9 * closest.distance / unit;
     }
-    // What is too near already may not come nearer; the certificate decides whether it may stay.
-    contact.floor_fraction = std::min(contact.floor_fraction, 0.9 * closest.distance / unit);
     found.push_back(contact);
   }
   return found;

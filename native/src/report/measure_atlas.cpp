@@ -18,11 +18,6 @@ double bounding_box_diagonal(const Atlas& atlas) {
   return (high - low).norm();
 }
 
-std::string describe(const FaceDefect& defect) {
-  return "face " + std::to_string(defect.face) + " of chart " + std::to_string(defect.chart) +
-         (defect.zero_area ? " has no area in the UV map" : " is flipped or crosses itself in the UV map");
-}
-
 }  // namespace
 
 Measures measure(const Atlas& atlas, double box_aspect) {

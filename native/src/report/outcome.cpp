@@ -135,7 +135,9 @@ void Outcome::require_certificate(const ChartSet& output, const Gap& gap) {
   const Vec2 box(result_.after.box_width, result_.after.box_height);
   const Vec2 whole = box_of_aspect({Vec2::Zero(), box}, options_.box_aspect).size();
   if (result_.after.gap_between * box.norm() < gap.length(whole)) {
-    refuse("two charts are nearer than the gap of " + number("%g", gap.value), -1, -1);
+    refuse("two charts are " + number("%.6g", result_.after.gap_between) + " of the diagonal apart, nearer than the gap of " +
+               number("%g", gap.value),
+           -1, -1);
   }
 }
 
