@@ -86,10 +86,19 @@ class Refinement {
   RefineResult squeezed(bool own_layout, const std::vector<Chart>& placed) {
     outcome_.begin_stage("squeeze", 0.25, 0.95);
     std::vector<std::vector<Chart>> starts = {placed};
-    if (own_layout && gap_kept(charts_, kStartGap)) starts.push_back(charts_);
+    if (own_layout && gap_kept(charts_, kStartGap)) add_own_layout(starts);
     Squeezed best = squeeze(starts, squeeze_options(options_, threads_), monitor_);
     outcome_.squeezed(best);
     return outcome_.certified(Intervention::Squeezed, best.charts, best.gap);
+  }
+
+  /// The artist's layout is a start beside the packer's; of a large atlas only the tighter one is tried.
+  void add_own_layout(std::vector<std::vector<Chart>>& starts) const {
+    constexpr std::size_t kLarge = 30000;
+    std::size_t triangles = 0;
+    for (const Chart& chart : charts_) triangles += chart.triangles.size();
+    if (triangles <= kLarge) starts.push_back(charts_);
+    else if (pe(charts_) > pe(starts.front())) starts.front() = charts_;
   }
 
   const Atlas& atlas_;

@@ -50,7 +50,13 @@ void Outcome::measure_input(const ChartSet& set) {
     chart.mirrored = set.mirrored[c];
     chart.distortion_before = dirichlet_sums(input_charts_[c]).best_energy();
     result_.charts.push_back(chart);
-    if (chart.mirrored) result_.repairs.push_back("chart " + std::to_string(c) + ": mirrored, turned over");
+  }
+  const auto mirrored = std::count(set.mirrored.begin(), set.mirrored.end(), true);
+  if (mirrored == 1) {
+    const auto first = std::find(set.mirrored.begin(), set.mirrored.end(), true) - set.mirrored.begin();
+    result_.repairs.push_back("chart " + std::to_string(first) + ": mirrored, turned over");
+  } else if (mirrored > 1) {
+    result_.repairs.push_back(std::to_string(mirrored) + " charts: mirrored, turned over");
   }
   show("input", charts_as_placed(set));
 }
