@@ -1,14 +1,18 @@
-"""The Blenders that tests and demo run in: Debian's program, and the official builds as the bpy module of PyPI."""
+"""The Blenders that tests and demo run in: Debian's program, and the official builds as the bpy module of PyPI.
+
+usage: blenders.py     prints the path of a Python 3.13, which the newest of them needs, and fails where there is none
+"""
 
 import pathlib
 import shutil
 import subprocess
+import sys
 from dataclasses import dataclass
 
 #: Official builds. One is enough for every day; the others are for --all-blenders. The last needs a Python 3.13.
 EVERY_DAY = ["4.5.15"]
 OTHERS = ["4.2.23", "5.0.1"]
-PYTHON_3_13 = ["5.2.3"]
+ON_PYTHON_3_13 = ["5.2.3"]
 
 
 @dataclass(frozen=True)
@@ -17,6 +21,7 @@ class Program:
 
     name: str
     executable: str
+    can_be_had = True
 
     def installed(self, _cache):
         return self
@@ -38,6 +43,10 @@ class Module:
     def name(self):
         return f"Blender {self.version}"
 
+    @property
+    def can_be_had(self):
+        return bool(self.base_python)
+
     def installed(self, cache):
         folder = pathlib.Path(cache) / f"bpy-{self.version}"
         python, done = folder / "bin" / "python", folder / "complete"
@@ -58,8 +67,24 @@ def debian():
     return [Program(text.splitlines()[0], "/usr/bin/blender")]
 
 
+def python_3_13():
+    """Path of a Python 3.13, "" where there is none; Debian 12 has none of its own."""
+    candidates = [shutil.which("python3.13"), *pathlib.Path.home().glob(".pyenv/versions/3.13.*/bin/python3.13")]
+    for candidate in filter(None, candidates):
+        if subprocess.run([candidate, "-c", "import venv"], capture_output=True, check=False).returncode == 0:
+            return str(candidate)
+    return ""
+
+
 def official(every):
     modules = [Module(version) for version in EVERY_DAY]
     if every:
         modules += [Module(version) for version in OTHERS]
+        modules += [Module(version, base_python=python_3_13()) for version in ON_PYTHON_3_13]
     return modules
+
+
+if __name__ == "__main__":
+    found = python_3_13()
+    print(found)
+    sys.exit(not found)

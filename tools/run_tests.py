@@ -83,8 +83,11 @@ def from_json(path, exit_code):
     return counts
 
 
-def in_blender(blender):
+def in_blender(blender, cache):
     """Installs the zip into a new profile, as a user does, and runs each test file in a process of its own."""
+    if not blender.can_be_had:
+        return Counts(skipped=[f"{blender.name}: no Python 3.13 on this machine"])
+    blender = blender.installed(cache)
     (archive,) = (ROOT / "dist").glob("atlas_refine-*.zip")
     with tempfile.TemporaryDirectory(prefix="atlas-refine-profile-") as profile:
         environment = {**os.environ, "BLENDER_USER_RESOURCES": profile}
@@ -109,7 +112,7 @@ def suites(arguments):
     for folder in sorted({path.parent for path in (ROOT / "tests").rglob("test_*.py")}):
         yield f"pytest {folder.relative_to(ROOT)}", lambda folder=folder: pytest(folder)
     for blender in blenders.debian() + blenders.official(every=arguments.all_blenders):
-        yield blender.name, lambda blender=blender: in_blender(blender.installed(pathlib.Path(arguments.cache)))
+        yield blender.name, lambda blender=blender: in_blender(blender, pathlib.Path(arguments.cache))
     for blender in blenders.debian():
         yield f"window of {blender.name}", lambda blender=blender: in_window(blender)
 
