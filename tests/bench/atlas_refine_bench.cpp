@@ -46,7 +46,7 @@ struct Charts {
   explicit Charts(const std::string& path) {
     const cli::ObjFile file = cli::ObjFile::read(path);
     ChartSet set = split_charts(file.atlas());
-    require_no_defects(file.atlas(), set);
+    require_no_flips(file.atlas(), set);
     file_box = uv_box(set.charts).size();
     charts = std::move(set.charts);
     for (const Chart& chart : charts) scales.push_back(dirichlet_sums(chart).best_scale());

@@ -6,6 +6,7 @@ import statistics
 LOW_DISTORTION = 1.2  # inputs above this E_d are left out of the means
 EXTRA_LIMIT = {"disk": 0.010, "disk_deep": 0.013, "atlas-clean": 0.007}  # mean extra E_d at 0.80 free
 TIME_LIMITS = ((21_500, 3.0), (101_000, 20.0))  # up to so many triangles, seconds on one thread from a valid start
+NEWTON_TRIANGLES = 4000  # below, an iteration with stock Eigen takes next to no time
 LONGEST_RUN_S = 60
 
 
@@ -62,21 +63,26 @@ def mean(values):
     return statistics.fmean(finite) if finite else math.nan
 
 
+def median(values):
+    finite = [value for value in values if math.isfinite(value)]
+    return statistics.median(finite) if finite else math.nan
+
+
 def group_line(rows):
     """Counts and means of the rows of one folder (or of several) at one bound."""
     low = [row for row in rows if row.ok and row.e_d_in < LOW_DISTORTION]
-    with_optimum = [row for row in low if math.isfinite(row.extra)]
+    squeezed = [row for row in low if row.how == "squeezed"]
     how = {name: sum(row.how == name for row in rows) for name in ("unchanged", "moved", "squeezed", "failed")}
     return (
         f"ok {sum(row.ok for row in rows)} of {len(rows)} ("
         + ", ".join(f"{count} {name}" for name, count in how.items() if count)
-        + f"); extra E_d mean {text(mean([r.extra for r in with_optimum]), '.4f')}"
-        + f" max {text(max((r.extra for r in with_optimum), default=math.nan), '.4f')} ({len(with_optimum)} files)"
+        + f"); extra E_d mean {text(mean([r.extra for r in low]), '.4f')} ({len(low)} files)"
+        + f", squeezed {text(mean([r.extra for r in squeezed]), '.4f')} ({len(squeezed)})"
+        + f", largest {text(max((r.extra for r in low if math.isfinite(r.extra)), default=math.nan), '.4f')}"
         + f"; E_d {text(mean([r.e_d_in for r in low]), '.4f')} -> {text(mean([r.e_d for r in low]), '.4f')}"
         + f"; stretch 99 % {text(mean([r.stretch_99 for r in low]), '.3f')}"
         + f"; gap kept {sum(row.ok and row.gap >= 0.0025 for row in rows)} of {len(rows)}"
         + f"; slowest {text(max((r.time for r in rows if math.isfinite(r.time)), default=math.nan), '.1f')} s"
-        + f"; xNewton mean {text(mean([r.newton_multiple for r in rows]), '.0f')}"
     )
 
 
@@ -107,6 +113,8 @@ def time_lines(rows):
         out.append(
             f"0.80 free, valid start, {least}-{most} triangles: at most {limit:g} s on {len(group) - len(slow)} of {len(group)}"
             + (": not " + ", ".join(slow) if slow else "")
+            + f"; median {text(median([r.time for r in group]), '.2f')} s"
+            + f", {text(median([r.newton_multiple for r in group if r.triangles >= NEWTON_TRIANGLES]), '.0f')} Newton iterations"
         )
         least = most
     long = [f"{r.folder}/{r.file} at {r.goal} {r.time:.0f} s" for r in rows if r.time > LONGEST_RUN_S]
