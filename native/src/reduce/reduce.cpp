@@ -14,7 +14,8 @@ constexpr double kLeastClimb = 0.01;        // log PE gains at most this much in
 constexpr double kMostClimb = 0.03;         // and this much far below it
 constexpr double kTargetSlack = 2e-5;       // aim so much above the bound, relative, that rounding cannot lose it
 constexpr double kNearTarget = 1e-3;        // log PE: from here on the barrier softens
-constexpr double kConverged = 2e-4;         // relative change of E_d - 1, twice in a row
+constexpr double kConverged = 2e-4;         // relative change of E_d - 1, twice in a row,
+constexpr double kNegligible = 1e-8;        // or a change of E_d that nobody can measure
 constexpr double kLeastPrice = 1e-3;        // the barrier is never softer than for this price
 constexpr double kFirmness = 0.2;           // stiffness of the barrier per price and range while PE climbs,
 constexpr double kSoftFirmness = 0.005;     // and at the end, when charts may come as near as the gap allows
@@ -151,11 +152,11 @@ class Reduction {
 
   void count_progress(double energy_before, double pe_before) {
     const bool on_target = !bounded() || (std::abs(deficit()) < 1e-4 || (holds_bound() && price_ == 0));
-    const bool quiet = std::abs(energy_ - energy_before) < kConverged * (energy_ - 1) && fraction_ > 0.1;
+    const bool quiet = std::abs(energy_ - energy_before) < kConverged * (energy_ - 1) + kNegligible && fraction_ > 0.1;
     calm_ = on_target && quiet && settled() ? calm_ + 1 : 0;
     expensive_ = price_ > problem_.max_price ? expensive_ + 1 : 0;
     distorted_ = !within_distortion() && quiet ? distorted_ + 1 : 0;
-    const bool moved = std::abs(energy_ - energy_before) > 1e-5 * (energy_ - 1) || pe_ - pe_before > 1e-5 * pe_;
+    const bool moved = std::abs(energy_ - energy_before) > 1e-5 * (energy_ - 1) + 0.1 * kNegligible || pe_ - pe_before > 1e-5 * pe_;
     idle_ = moved ? 0 : idle_ + 1;
   }
 
