@@ -21,7 +21,7 @@ from support import MODULE, add_mesh, enable_addon, get_uvs, packing_efficiency
 
 RESULT = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
 STEP_SECONDS = 0.05
-WAIT_LIMIT_SECONDS = 60
+WAIT_LIMIT_SECONDS = 40
 #: Where the tab and the button are in the sidebar of Blender 3.4.1's UV editor, in pixels from its right and top edge.
 TAB = (10, 130)
 BUTTON = (130, 235)

@@ -18,8 +18,7 @@ std::vector<Job*> g_jobs;  // those alive, for stop_all()
 
 }  // namespace
 
-Job::Job(Atlas atlas, RefineOptions options)
-    : atlas_(std::move(atlas)), options_(std::move(options)), thread_([this] { run(); }) {
+Job::Job(Atlas atlas, const RefineOptions& options) : atlas_(std::move(atlas)), options_(options), thread_([this] { run(); }) {
   const std::lock_guard lock(g_jobs_mutex);
   g_jobs.push_back(this);
 }

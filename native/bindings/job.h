@@ -16,7 +16,7 @@ namespace atlas_refine::python {
 
 class Job {
  public:
-  Job(Atlas atlas, RefineOptions options);
+  Job(Atlas atlas, const RefineOptions& options);
   ~Job();  ///< cancels and waits
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;

@@ -135,13 +135,14 @@ void bind_error(py::module_& module) {
   g_error_type = PyErr_NewExceptionWithDoc("atlas_refine.AtlasRefineError", kErrorDoc, PyExc_RuntimeError, nullptr);
   if (g_error_type == nullptr) throw py::error_already_set();
   module.attr("AtlasRefineError") = py::reinterpret_borrow<py::object>(g_error_type);
-  py::register_local_exception_translator([](std::exception_ptr error) {
-    try {
-      if (error) std::rethrow_exception(error);
-    } catch (const RefineError& refine_error) {
-      set_error(refine_error);
-    }
-  });
+  py::register_local_exception_translator(
+      [](std::exception_ptr error) {  // NOLINT(performance-unnecessary-value-param): the signature is pybind11's
+        try {
+          if (error) std::rethrow_exception(error);
+        } catch (const RefineError& refine_error) {
+          set_error(refine_error);
+        }
+      });
 }
 
 void bind_results(py::module_& module) {
