@@ -1,10 +1,10 @@
 // One checker for every energy: analytic gradient and Hessian against central differences.
 #pragma once
 
-#include <functional>
+#include <gtest/gtest.h>
 
 #include <Eigen/Core>
-#include <gtest/gtest.h>
+#include <functional>
 
 namespace atlas_refine::testing {
 
@@ -22,8 +22,8 @@ inline Eigen::VectorXd numeric_gradient(const Energy& energy, const Eigen::Vecto
 }
 
 /// From the analytic gradient, which is the smoother route.
-inline Eigen::MatrixXd numeric_hessian(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& gradient, const Eigen::VectorXd& x,
-                                       double h = 1e-6) {
+inline Eigen::MatrixXd numeric_hessian(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& gradient,
+                                       const Eigen::VectorXd& x, double h = 1e-6) {
   Eigen::MatrixXd m(x.size(), x.size());
   for (int i = 0; i < x.size(); ++i) {
     Eigen::VectorXd a = x, b = x;

@@ -23,7 +23,11 @@ namespace {
 class Refinement {
  public:
   Refinement(const Atlas& atlas, const RefineOptions& options, Monitor& monitor, DebugSink* debug)
-      : atlas_(atlas), options_(options), monitor_(monitor), outcome_(atlas, options, monitor, debug), gap_(options.gap.value_or(Gap{})),
+      : atlas_(atlas),
+        options_(options),
+        monitor_(monitor),
+        outcome_(atlas, options, monitor, debug),
+        gap_(options.gap.value_or(Gap{})),
         threads_(resolve_threads(options.threads)) {}
 
   RefineResult run() {
@@ -97,8 +101,10 @@ class Refinement {
     constexpr std::size_t kLarge = 30000;
     std::size_t triangles = 0;
     for (const Chart& chart : charts_) triangles += chart.triangles.size();
-    if (triangles <= kLarge) starts.push_back(charts_);
-    else if (pe(charts_) > pe(starts.front())) starts.front() = charts_;
+    if (triangles <= kLarge)
+      starts.push_back(charts_);
+    else if (pe(charts_) > pe(starts.front()))
+      starts.front() = charts_;
   }
 
   const Atlas& atlas_;
@@ -116,9 +122,12 @@ const char* version() { return ATLAS_REFINE_VERSION; }
 
 const char* to_string(Intervention intervention) {
   switch (intervention) {
-    case Intervention::Unchanged: return "unchanged";
-    case Intervention::Moved: return "moved";
-    case Intervention::Squeezed: return "squeezed";
+    case Intervention::Unchanged:
+      return "unchanged";
+    case Intervention::Moved:
+      return "moved";
+    case Intervention::Squeezed:
+      return "squeezed";
   }
   return "unknown";
 }

@@ -1,10 +1,10 @@
 // Flip and collision times against brute force.
 #include "geometry/collision.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <limits>
-
-#include <gtest/gtest.h>
 
 #include "geometry/boundary.h"
 #include "support/rng.h"
@@ -54,8 +54,10 @@ TEST(HitTime, IsTheFirstTouchOfPointAndEdge) {
       if (side(t0) * side(t1) > 0) continue;
       const Vec2 edge = at(b, t1) - at(a, t1);
       const double along = edge.dot(at(p, t1) - at(a, t1)) / edge.squaredNorm();
-      if (along > 0.001 && along < 0.999) brute = t1;
-      else if (along > -0.001 && along < 1.001) brute = -1;  // too near an end to tell by sampling
+      if (along > 0.001 && along < 0.999)
+        brute = t1;
+      else if (along > -0.001 && along < 1.001)
+        brute = -1;  // too near an end to tell by sampling
     }
     if (brute < 0) continue;
     if (std::isinf(brute)) {

@@ -1,8 +1,9 @@
 // The block factorisation against a dense solve.
 #include "solve/block_ldlt.h"
 
-#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
 
 #include "support/rng.h"
 

@@ -41,7 +41,8 @@ TEST(LogBarrier, StartsSmoothlyAndDiverges) {
   const double h = 1e-6;
   for (const double x : {0.05, 0.3, 0.7, 0.95}) {
     EXPECT_NEAR((log_barrier(x + h).value - log_barrier(x - h).value) / (2 * h), log_barrier(x).slope, 1e-6);
-    EXPECT_NEAR((log_barrier(x + h).slope - log_barrier(x - h).slope) / (2 * h), log_barrier(x).curvature, 1e-4 * log_barrier(x).curvature);
+    EXPECT_NEAR((log_barrier(x + h).slope - log_barrier(x - h).slope) / (2 * h), log_barrier(x).curvature,
+                1e-4 * log_barrier(x).curvature);
   }
 }
 

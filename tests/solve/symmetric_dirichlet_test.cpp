@@ -80,7 +80,8 @@ TEST(SymmetricDirichlet, DerivativesMatchFiniteDifferences) {
     const TriangleDerivatives d = derivatives(s, s.x, false);
     EXPECT_NEAR(d.energy, energy(s.x), 1e-12 * d.energy);
     expect_close(stacked_gradient(d), numeric_gradient(energy, s.x), 1e-5);
-    expect_close(full_hessian(d), numeric_hessian([&](const auto& x) { return stacked_gradient(derivatives(s, x, false)); }, s.x), 1e-4);
+    expect_close(full_hessian(d), numeric_hessian([&](const auto& x) { return stacked_gradient(derivatives(s, x, false)); }, s.x),
+                 1e-4);
   }
 }
 
@@ -94,8 +95,10 @@ TEST(SymmetricDirichlet, ProjectionRemovesNegativeCurvatureAndNothingElse) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> before(exact), after(psd);
     const double scale = before.eigenvalues().cwiseAbs().maxCoeff();
     EXPECT_GE(after.eigenvalues()[0], -1e-10 * scale);
-    if (before.eigenvalues()[0] < -1e-9 * scale) ++projected;
-    else expect_close(exact, psd, 1e-12);
+    if (before.eigenvalues()[0] < -1e-9 * scale)
+      ++projected;
+    else
+      expect_close(exact, psd, 1e-12);
   }
   EXPECT_GT(projected, 50);
 }

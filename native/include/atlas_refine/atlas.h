@@ -1,10 +1,9 @@
 // The input and output value of every public call: a polygon mesh with one UV per face corner.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace atlas_refine {
 

@@ -13,12 +13,12 @@ namespace atlas_refine {
 
 /// The atlas at one stage. All indices refer to `uvs`.
 struct AtlasSnapshot {
-  std::string stage;                                ///< "input", "placed", "squeezed", ...
-  std::string caption;                              ///< figures to print under the picture, may be empty
+  std::string stage;    ///< "input", "placed", "squeezed", ...
+  std::string caption;  ///< figures to print under the picture, may be empty
   std::vector<Vec2> uvs;
   std::vector<std::array<int, 3>> triangles;
-  std::vector<double> stretch;                      ///< max(s1, 1 / s2) of each triangle, 1 = isometric
-  std::vector<std::vector<int>> boundary_loops;     ///< closed, last vertex joins the first
+  std::vector<double> stretch;                   ///< max(s1, 1 / s2) of each triangle, 1 = isometric
+  std::vector<std::vector<int>> boundary_loops;  ///< closed, last vertex joins the first
   Vec2 box_min = Vec2::Zero();
   Vec2 box_max = Vec2::Zero();
 };

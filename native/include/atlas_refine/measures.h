@@ -10,32 +10,33 @@ namespace atlas_refine {
 
 /// Figures of one atlas. Lengths in UV units unless said otherwise. "Gap" is the smallest distance between boundaries.
 struct Measures {
-  double pe = 0;                 ///< packing efficiency: sum of UV triangle areas / area of the UV bounding box
-  double pe_fixed_aspect = 0;    ///< the same against the smallest box of the asked aspect; equals pe where the aspect is free
-  double box_width = 0;          ///< UV bounding box
+  double pe = 0;               ///< packing efficiency: sum of UV triangle areas / area of the UV bounding box
+  double pe_fixed_aspect = 0;  ///< the same against the smallest box of the asked aspect; equals pe where the aspect is free
+  double box_width = 0;        ///< UV bounding box
   double box_height = 0;
-  double boundary_length = 0;    ///< BL: 3D length of all seams, each once, without natural boundary / diagonal of the 3D bounding box
-  int seam_edges = 0;            ///< 3D edges across which the UVs differ
-  int chart_count = 0;           ///< CN
-  double smallest_chart = 0;     ///< SA: smallest chart's area / total area, on the surface
-  int small_charts = 0;          ///< N3: charts under 3 % of the area
-  double distortion = 0;         ///< E_d, eq. (9), under the one global scale that minimises it; 1 = isometric
+  double boundary_length =
+      0;                ///< BL: 3D length of all seams, each once, without natural boundary / diagonal of the 3D bounding box
+  int seam_edges = 0;   ///< 3D edges across which the UVs differ
+  int chart_count = 0;  ///< CN
+  double smallest_chart = 0;       ///< SA: smallest chart's area / total area, on the surface
+  int small_charts = 0;            ///< N3: charts under 3 % of the area
+  double distortion = 0;           ///< E_d, eq. (9), under the one global scale that minimises it; 1 = isometric
   double distortion_to_input = 0;  ///< E_2: the same energy from the input's UVs to these; 1 on the input itself
-  double stretch_99 = 0;         ///< area-weighted 99th percentile of max(s1, 1 / s2) under the same global scale
-  double stretch_max = 0;        ///< largest of the same
-  double gap_between = 0;        ///< smallest distance between two charts / box diagonal; infinity with one chart
-  double gap_within = 0;         ///< smallest distance between two borders of one chart that are far apart along it / box diagonal
+  double stretch_99 = 0;           ///< area-weighted 99th percentile of max(s1, 1 / s2) under the same global scale
+  double stretch_max = 0;          ///< largest of the same
+  double gap_between = 0;          ///< smallest distance between two charts / box diagonal; infinity with one chart
+  double gap_within = 0;  ///< smallest distance between two borders of one chart that are far apart along it / box diagonal
 };
 
 /// Why an atlas is not valid. Empty `problem` means valid.
 struct Validity {
   bool valid() const { return problem.empty(); }
-  std::string problem;     ///< one line that names the first problem found
-  int chart = -1;          ///< 0-based chart, -1 where none applies
-  int face = -1;           ///< 0-based input face, -1 where none applies
-  int flipped_faces = 0;   ///< faces whose UV area is not positive in the sense of their chart
+  std::string problem;      ///< one line that names the first problem found
+  int chart = -1;           ///< 0-based chart, -1 where none applies
+  int face = -1;            ///< 0-based input face, -1 where none applies
+  int flipped_faces = 0;    ///< faces whose UV area is not positive in the sense of their chart
   int mirrored_charts = 0;  ///< charts whose faces are all turned over; counted, and not valid
-  int crossings = 0;       ///< pairs of boundary edges that cross or touch
+  int crossings = 0;        ///< pairs of boundary edges that cross or touch
 };
 
 /// Measures an atlas as it is. `box_aspect` is width / height of the box for `pe_fixed_aspect`, 0 = free.

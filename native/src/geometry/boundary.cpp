@@ -1,11 +1,10 @@
 // Flat boundaries and the grid search for near pairs.
 #include "geometry/boundary.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
-
-#include <Eigen/LU>
 
 namespace atlas_refine {
 namespace {

@@ -9,7 +9,7 @@ namespace atlas_refine {
 
 /// All boundary vertices, loop after loop. Edge e runs from boundary vertex e to next[e], the chart on its left.
 struct Boundary {
-  std::vector<int> vertex;         ///< index into the flat vertex array of all charts
+  std::vector<int> vertex;  ///< index into the flat vertex array of all charts
   std::vector<int> next;
   std::vector<int> previous;
   std::vector<int> chart;

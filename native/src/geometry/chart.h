@@ -1,10 +1,9 @@
 // A chart: the value that passes between the stages.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "atlas_refine/atlas.h"
 
@@ -21,10 +20,10 @@ struct RestTriangle {
 
 /// A connected piece of the UV map. Vertices are UV vertices: one per fan of corners that share UVs.
 struct Chart {
-  std::vector<Vec2> uvs;                       ///< one per UV vertex
-  std::vector<Triangle> triangles;             ///< local vertex indices, counterclockwise in the UV plane
-  std::vector<RestTriangle> rest;              ///< one per triangle
-  std::vector<int> triangle_faces;             ///< one per triangle: the input face it came from
+  std::vector<Vec2> uvs;                         ///< one per UV vertex
+  std::vector<Triangle> triangles;               ///< local vertex indices, counterclockwise in the UV plane
+  std::vector<RestTriangle> rest;                ///< one per triangle
+  std::vector<int> triangle_faces;               ///< one per triangle: the input face it came from
   std::vector<std::vector<int>> boundary_loops;  ///< vertex loops, the chart on the left; the loop of largest |area| first
 
   int vertex_count() const { return static_cast<int>(uvs.size()); }

@@ -1,11 +1,10 @@
 // Tutte's embedding onto a disk.
 #include "geometry/tutte.h"
 
-#include <cmath>
-#include <numbers>
-
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
+#include <cmath>
+#include <numbers>
 
 #include "geometry/boundary.h"
 
@@ -58,8 +57,10 @@ std::vector<Vec2> tutte_disk(const Chart& chart) {
   const auto add = [&](int from, int to) {
     if (fixed[from]) return;
     triplets.emplace_back(unknown[from], unknown[from], 1.0);
-    if (fixed[to]) right.row(unknown[from]) += uvs[to].transpose();
-    else triplets.emplace_back(unknown[from], unknown[to], -1.0);
+    if (fixed[to])
+      right.row(unknown[from]) += uvs[to].transpose();
+    else
+      triplets.emplace_back(unknown[from], unknown[to], -1.0);
   };
   for (const auto& [i, j] : filled_edges(chart, outer)) {
     add(i, j);

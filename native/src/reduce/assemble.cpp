@@ -35,10 +35,11 @@ void ReduceSystem::damp(double damping) {
 
 void ReduceSystem::ensure_pattern(const ReduceState& state, const std::vector<Contact>& contacts) {
   const bool known = matrix.node_count() > 0 && std::all_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
-    const int point = boundary_.vertex[contact.pair.point];
-    const int start = boundary_.vertex[contact.pair.edge], end = boundary_.vertex[boundary_.next[contact.pair.edge]];
-    return matrix.slot(point, start) >= 0 && matrix.slot(point, end) >= 0;
-  });
+                       const int point = boundary_.vertex[contact.pair.point];
+                       const int start = boundary_.vertex[contact.pair.edge],
+                                 end = boundary_.vertex[boundary_.next[contact.pair.edge]];
+                       return matrix.slot(point, start) >= 0 && matrix.slot(point, end) >= 0;
+                     });
   if (known) return;
   std::vector<std::pair<int, int>> edges;
   for (const Triangle& t : triangles_) {
@@ -85,16 +86,20 @@ void ReduceSystem::add_triangles(const ReduceState& state) {
         energy_gradient[i] += weight * d.gradient[k];
         matrix.diagonal[i] += weight * d.diagonal[k];
         Mat2& block = matrix.off_diagonal[triangle_slots_[t][k]];
-        if (i < j) block += weight * d.off_diagonal[k];
-        else block += weight * d.off_diagonal[k].transpose();
+        if (i < j)
+          block += weight * d.off_diagonal[k];
+        else
+          block += weight * d.off_diagonal[k].transpose();
       }
     }
   }
 }
 
 void ReduceSystem::add_block(int i, int j, const Mat2& block) {
-  if (i == j) matrix.diagonal[i] += block;
-  else if (i < j) matrix.off_diagonal[matrix.slot(i, j)] += block;
+  if (i == j)
+    matrix.diagonal[i] += block;
+  else if (i < j)
+    matrix.off_diagonal[matrix.slot(i, j)] += block;
 }
 
 void ReduceSystem::add_contacts(const ReduceState& state, const std::vector<Contact>& contacts, double stiffness) {
@@ -114,15 +119,17 @@ void ReduceSystem::add_contacts(const ReduceState& state, const std::vector<Cont
   }
   if (!has_box_) return;
   Vec2 unit_gradient;
-  if (gap_.unit == Gap::Unit::BoxDiagonal) unit_gradient = state.box / state.box.norm();
-  else unit_gradient = state.box.x() >= state.box.y() ? Vec2(1, 0) : Vec2(0, 1);
+  if (gap_.unit == Gap::Unit::BoxDiagonal)
+    unit_gradient = state.box / state.box.norm();
+  else
+    unit_gradient = state.box.x() >= state.box.y() ? Vec2(1, 0) : Vec2(0, 1);
   const Vec2 sides = stiffness * unit_slope * unit_gradient;
   energy_gradient[vertex_count()] += aspect_ == 0 ? sides : Vec2(aspect_ * sides.x() + sides.y(), 0);
 }
 
 void ReduceSystem::add_walls(const ReduceState& state, double stiffness) {
   const int box_node = vertex_count();
-  Vec2 sides = Vec2::Zero();      // gradient by width and height
+  Vec2 sides = Vec2::Zero();  // gradient by width and height
   Vec2 sides_stiff = Vec2::Zero();
   for (int v : boundary_.vertex) {
     Mat2 coupling = Mat2::Zero();  // rows: vertex, columns: sides

@@ -1,4 +1,5 @@
-// Charts that overlap themselves get a bijective embedding: Tutte's, then least distortion under the barrier.
+// Charts that overlap or touch themselves get a bijective embedding: touching vertices are parted; else Tutte, then least
+// distortion under the barrier.
 #pragma once
 
 #include "geometry/chart.h"
@@ -6,7 +7,8 @@
 
 namespace atlas_refine {
 
-/// The chart embedded without overlap, at its own optimum of E_d (eq. 9) with all borders at least the default gap apart.
+/// The chart without overlap: as it was but for touching vertices, where those were all; else at its own
+/// optimum of E_d (eq. 9) with all borders at least the default gap apart.
 /// Throws RefineError(BadInput) naming the chart where none exists (a handle) or none could be computed.
 Chart re_embed(const Chart& chart, int chart_index, int threads, Monitor& monitor);
 

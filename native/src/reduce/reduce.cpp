@@ -10,17 +10,17 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kLeastClimb = 0.01;        // log PE gains at most this much in one iteration near the target,
-constexpr double kMostClimb = 0.03;         // and this much far below it
-constexpr double kTargetSlack = 2e-5;       // aim so much above the bound, relative, that rounding cannot lose it
-constexpr double kNearTarget = 1e-3;        // log PE: from here on the barrier softens
-constexpr double kConverged = 2e-4;         // relative change of E_d - 1, twice in a row,
-constexpr double kNegligible = 1e-8;        // or a change of E_d that nobody can measure
-constexpr double kLeastPrice = 1e-3;        // the barrier is never softer than for this price
-constexpr double kFirmness = 0.2;           // stiffness of the barrier per price and range while PE climbs,
-constexpr double kSoftFirmness = 0.005;     // and at the end, when charts may come as near as the gap allows
-constexpr double kSoftening = 0.5;          // from one to the other, a step per iteration on the target
-constexpr double kOpenFirmness = 2;         // without a box: far from the optimum, a soft barrier grinds
+constexpr double kLeastClimb = 0.01;     // log PE gains at most this much in one iteration near the target,
+constexpr double kMostClimb = 0.03;      // and this much far below it
+constexpr double kTargetSlack = 2e-5;    // aim so much above the bound, relative, that rounding cannot lose it
+constexpr double kNearTarget = 1e-3;     // log PE: from here on the barrier softens
+constexpr double kConverged = 2e-4;      // relative change of E_d - 1, twice in a row,
+constexpr double kNegligible = 1e-8;     // or a change of E_d that nobody can measure
+constexpr double kLeastPrice = 1e-3;     // the barrier is never softer than for this price
+constexpr double kFirmness = 0.2;        // stiffness of the barrier per price and range while PE climbs,
+constexpr double kSoftFirmness = 0.005;  // and at the end, when charts may come as near as the gap allows
+constexpr double kSoftening = 0.5;       // from one to the other, a step per iteration on the target
+constexpr double kOpenFirmness = 2;      // without a box: far from the optimum, a soft barrier grinds
 constexpr double kLeastDamping = 1e-6;
 constexpr double kMostDamping = 1e8;
 constexpr double kArmijo = 1e-4;
@@ -46,7 +46,8 @@ class Reduction {
   ReduceResult run() {
     ReduceStatus status = ReduceStatus::OutOfTime;
     keep_if_best();
-    if (!std::isfinite(energy_) || !std::isfinite(system_.barrier(state_, system_.contacts(state_, {})))) return result(ReduceStatus::Stalled);
+    if (!std::isfinite(energy_) || !std::isfinite(system_.barrier(state_, system_.contacts(state_, {}))))
+      return result(ReduceStatus::Stalled);
     for (iteration_ = 0; iteration_ < problem_.max_iterations; ++iteration_) {
       if (monitor_) monitor_({iteration_, pe_, energy_, price_, fraction_});
       if (finished(status)) break;
@@ -73,12 +74,18 @@ class Reduction {
   }
 
   bool finished(ReduceStatus& status) const {
-    if (holds_bound() && calm_ >= 2) status = ReduceStatus::Converged;
-    else if (holds_bound() && problem_.enough_distortion > 0 && energy_ <= problem_.enough_distortion) status = ReduceStatus::Converged;
-    else if (distorted_ >= 4) status = ReduceStatus::TooDistorted;
-    else if (!holds_bound() && problem_.max_price > 0 && expensive_ >= 3) status = ReduceStatus::TooExpensive;
-    else if (idle_ >= kStallIterations) status = ReduceStatus::Stalled;
-    else return false;
+    if (holds_bound() && calm_ >= 2)
+      status = ReduceStatus::Converged;
+    else if (holds_bound() && problem_.enough_distortion > 0 && energy_ <= problem_.enough_distortion)
+      status = ReduceStatus::Converged;
+    else if (distorted_ >= 4)
+      status = ReduceStatus::TooDistorted;
+    else if (!holds_bound() && problem_.max_price > 0 && expensive_ >= 3)
+      status = ReduceStatus::TooExpensive;
+    else if (idle_ >= kStallIterations)
+      status = ReduceStatus::Stalled;
+    else
+      return false;
     return true;
   }
 
@@ -140,8 +147,10 @@ class Reduction {
 
   /// Damping follows the steps that succeed, the barrier's stiffness follows the price.
   void adapt() {
-    if (fraction_ >= 0.5) damping_ = std::max(kLeastDamping, 0.5 * damping_);
-    else if (fraction_ < 0.1) damping_ = std::min(kMostDamping, 4 * damping_);
+    if (fraction_ >= 0.5)
+      damping_ = std::max(kLeastDamping, 0.5 * damping_);
+    else if (fraction_ < 0.1)
+      damping_ = std::min(kMostDamping, 4 * damping_);
     if (bounded() && deficit() < kNearTarget) firmness_ = std::max(kSoftFirmness, kSoftening * firmness_);
     const double wanted = firmness_ * std::max(price_, kLeastPrice) * system_.range();
     stiffness_ = std::clamp(wanted, 0.5 * stiffness_, 2 * stiffness_);
@@ -156,7 +165,8 @@ class Reduction {
     calm_ = on_target && quiet && settled() ? calm_ + 1 : 0;
     expensive_ = price_ > problem_.max_price ? expensive_ + 1 : 0;
     distorted_ = !within_distortion() && quiet ? distorted_ + 1 : 0;
-    const bool moved = std::abs(energy_ - energy_before) > 1e-5 * (energy_ - 1) + 0.1 * kNegligible || pe_ - pe_before > 1e-5 * pe_;
+    const bool moved =
+        std::abs(energy_ - energy_before) > 1e-5 * (energy_ - 1) + 0.1 * kNegligible || pe_ - pe_before > 1e-5 * pe_;
     idle_ = moved ? 0 : idle_ + 1;
   }
 

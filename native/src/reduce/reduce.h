@@ -46,10 +46,10 @@ using ReduceMonitor = std::function<void(const ReduceProgress&)>;
 struct ReduceResult {
   std::vector<std::vector<Vec2>> uvs;  ///< one array per chart, in the start's units
   ReduceStatus status = ReduceStatus::Converged;
-  bool reached = false;                ///< PE of the charts' own bounding box (of the asked aspect) is at least the target
+  bool reached = false;  ///< PE of the charts' own bounding box (of the asked aspect) is at least the target
   double pe = 0;
-  double energy = 0;                   ///< E_d at the scale the charts have
-  double price = 0;                    ///< lambda
+  double energy = 0;  ///< E_d at the scale the charts have
+  double price = 0;   ///< lambda
   int iterations = 0;
 };
 

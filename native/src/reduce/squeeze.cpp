@@ -9,7 +9,8 @@
 namespace atlas_refine {
 namespace {
 
-ReduceResult reduce_from(const std::vector<Chart>& start, const Gap& gap, const SqueezeOptions& options, int threads, Monitor& monitor) {
+ReduceResult reduce_from(const std::vector<Chart>& start, const Gap& gap, const SqueezeOptions& options, int threads,
+                         Monitor& monitor) {
   double first_pe = 0;
   const ReduceProblem problem{.charts = start,
                               .gap = gap,

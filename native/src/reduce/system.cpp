@@ -91,7 +91,8 @@ void ReduceSystem::measure_floors() {
   own_floor_.assign(boundary_.size(), gap_.value);
   const double far_arc = far_arc_length(start_.box);
   for (const PointEdge& pair : near_pairs(boundary_, start_.x, {}, gap_.value * unit)) {
-    if (boundary_.chart[pair.point] != boundary_.chart[pair.edge] || boundary_.arc_between(pair.point, pair.edge) < far_arc) continue;
+    if (boundary_.chart[pair.point] != boundary_.chart[pair.edge] || boundary_.arc_between(pair.point, pair.edge) < far_arc)
+      continue;
     const Closest closest = closest_on_segment(start_.x[boundary_.vertex[pair.point]], start_.x[boundary_.vertex[pair.edge]],
                                                start_.x[boundary_.vertex[boundary_.next[pair.edge]]]);
     if (faces_outside(boundary_, start_.x, pair, closest)) {
@@ -162,8 +163,9 @@ double ReduceSystem::barrier(const ReduceState& state, const std::vector<Contact
   const double unit = gap_unit(state.box);
   double sum = 0;
   for (const Contact& contact : contacts) {
-    const Closest closest = closest_on_segment(state.x[boundary_.vertex[contact.pair.point]], state.x[boundary_.vertex[contact.pair.edge]],
-                                               state.x[boundary_.vertex[boundary_.next[contact.pair.edge]]]);
+    const Closest closest =
+        closest_on_segment(state.x[boundary_.vertex[contact.pair.point]], state.x[boundary_.vertex[contact.pair.edge]],
+                           state.x[boundary_.vertex[boundary_.next[contact.pair.edge]]]);
     sum += log_barrier((closest.distance - contact.floor_fraction * unit) / contact.range).value;
   }
   if (!has_box_) return sum;

@@ -22,8 +22,8 @@ struct Contact {
   double range;
 };
 
-/// Everything about one atlas that does not change between iterations, and what one iteration assembles. All lengths are scaled so
-/// that the surface has area 1; E_d is then the sum over triangles of weight * energy.
+/// Everything about one atlas that does not change between iterations, and what one iteration assembles. All lengths are scaled
+/// so that the surface has area 1; E_d is then the sum over triangles of weight * energy.
 class ReduceSystem {
  public:
   explicit ReduceSystem(const ReduceProblem& problem);
@@ -60,7 +60,7 @@ class ReduceSystem {
   const Boundary& boundary() const { return boundary_; }
 
  private:
-  Vec2 box_part(const Vec2& node_step) const;   // sides from the box node's two values
+  Vec2 box_part(const Vec2& node_step) const;  // sides from the box node's two values
   double gap_unit(const Vec2& box) const;
   double far_arc_length(const Vec2& box) const;
   void place_start(const ReduceProblem& problem);
@@ -78,13 +78,13 @@ class ReduceSystem {
   std::vector<RestTriangle> rest_;  // area = weight in E_d
   std::vector<double> mass_;
   Boundary boundary_;
-  std::vector<double> own_floor_;   // per boundary vertex: fraction of the gap unit to far edges of its own chart
+  std::vector<double> own_floor_;  // per boundary vertex: fraction of the gap unit to far edges of its own chart
   Gap gap_;
   double aspect_ = 0;
   bool has_box_ = false;
-  double open_unit_ = 1;            // gap unit where there is no box
+  double open_unit_ = 1;  // gap unit where there is no box
   double range_ = 0;
-  double scale_ = 1;                // start units -> ours
+  double scale_ = 1;  // start units -> ours
   int threads_ = 1;
   std::vector<std::array<int, 3>> triangle_slots_;
 };

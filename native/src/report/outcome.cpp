@@ -20,6 +20,13 @@ std::string number(const char* format, double value) {
   return text;
 }
 
+/// The value that is left after storing it in single precision. GCC 12 drops the plain round trip where it vectorises two of
+/// them.
+double rounded_to_single(double value) {
+  volatile float stored = static_cast<float>(value);
+  return stored;
+}
+
 }  // namespace
 
 Outcome::Outcome(const Atlas& atlas, const RefineOptions& options, Monitor& monitor, DebugSink* debug)
@@ -70,15 +77,16 @@ void Outcome::squeezed(const Squeezed& squeezed) {
   result_.price = squeezed.outcome.price;
   result_.iterations += squeezed.iterations;
   if (!options_.gap && squeezed.gap.value < Gap{}.value) {
-    result_.warnings.push_back("the gap was reduced from " + number("%g", Gap{}.value) + " to " + number("%g", squeezed.gap.value) +
-                               " of the box diagonal: the bound does not leave more");
+    result_.warnings.push_back("the gap was reduced from " + number("%g", Gap{}.value) + " to " +
+                               number("%g", squeezed.gap.value) + " of the box diagonal: the bound does not leave more");
   }
 }
 
 void Outcome::show(const std::string& stage, const std::vector<Chart>& charts) {
   if (!debug_) return;
   const Measures measures = measure_charts(charts, options_.box_aspect);
-  const std::string caption = "PE " + number("%.1f %%", 100 * measures.pe_fixed_aspect) + ", E_d " + number("%.4f", measures.distortion);
+  const std::string caption =
+      "PE " + number("%.1f %%", 100 * measures.pe_fixed_aspect) + ", E_d " + number("%.4f", measures.distortion);
   debug_->receive(make_snapshot(stage, caption, charts, box_of_aspect(uv_box(charts), options_.box_aspect)));
 }
 
@@ -123,7 +131,7 @@ std::vector<Vec2> Outcome::stored_uvs(const std::vector<Chart>& charts) const {
   uvs.reserve(corners_.size());
   for (const CornerRef& corner : corners_) {
     Vec2 uv = scale * (charts[corner.chart].uvs[corner.vertex] - box.min);
-    if (options_.stored == Stored::Float32) uv = uv.cast<float>().cast<double>();
+    if (options_.stored == Stored::Float32) uv = Vec2(rounded_to_single(uv.x()), rounded_to_single(uv.y()));
     uvs.push_back(uv);
   }
   return uvs;
@@ -131,7 +139,8 @@ std::vector<Vec2> Outcome::stored_uvs(const std::vector<Chart>& charts) const {
 
 void Outcome::require_certificate(const ChartSet& output, const Gap& gap) {
   const auto refuse = [&](const std::string& why, int chart, int face) {
-    throw RefineError(ErrorCode::NotCertified, "certify", message_prefix(atlas_) + "the result was withheld: " + why, chart, face);
+    throw RefineError(ErrorCode::NotCertified, "certify", message_prefix(atlas_) + "the result was withheld: " + why, chart,
+                      face);
   };
   const Validity validity = validate_split(output);
   if (!validity.valid()) refuse(validity.problem, validity.chart, validity.face);

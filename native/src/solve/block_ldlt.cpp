@@ -1,11 +1,10 @@
 // Block LDL^T: elimination tree, symbolic counts and the numeric up-looking sweep.
 #include "solve/block_ldlt.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
 
 namespace atlas_refine {
 
@@ -61,8 +60,8 @@ void BlockLdlt::order(int last_node) {
     starts[i + 1] = static_cast<int>(rows.size());
   }
   const std::vector<char> ones(rows.size(), 1);
-  const Eigen::SparseMatrix<char> graph = Eigen::Map<const Eigen::SparseMatrix<char>>(n, n, static_cast<Eigen::Index>(rows.size()),
-                                                                                      starts.data(), rows.data(), ones.data());
+  const Eigen::SparseMatrix<char> graph = Eigen::Map<const Eigen::SparseMatrix<char>>(
+      n, n, static_cast<Eigen::Index>(rows.size()), starts.data(), rows.data(), ones.data());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
   Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), permutation);
   order_.assign(permutation.indices().data(), permutation.indices().data() + n);
@@ -128,8 +127,10 @@ bool BlockLdlt::factor() {
     for (int e = column_start_[k]; e < column_start_[k + 1]; ++e) {
       const Entry& entry = entries_[e];
       const Mat2& value = off_diagonal[entry.slot];
-      if (entry.transposed) work_[entry.row] += value.transpose();
-      else work_[entry.row] += value;
+      if (entry.transposed)
+        work_[entry.row] += value.transpose();
+      else
+        work_[entry.row] += value;
       int length = 0;
       for (int i = entry.row; flag_[i] != k; i = parent_[i]) {
         reach_[length++] = i;
@@ -172,7 +173,8 @@ void BlockLdlt::solve(std::vector<Vec2>& values) const {
   }
   for (int k = n - 1; k >= 0; --k) {
     Vec2 xk = inverse_pivots_[k] * x[k];
-    for (int p = factor_start_[k]; p < factor_start_[k + 1]; ++p) xk.noalias() -= factor_values_[p].transpose() * x[factor_rows_[p]];
+    for (int p = factor_start_[k]; p < factor_start_[k + 1]; ++p)
+      xk.noalias() -= factor_values_[p].transpose() * x[factor_rows_[p]];
     x[k] = xk;
   }
   for (int k = 0; k < n; ++k) values[order_[k]] = x[k];

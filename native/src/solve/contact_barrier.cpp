@@ -1,10 +1,9 @@
 // Derivatives of the contact barrier, the Hessian projected in the three directions that carry it.
 #include "solve/contact_barrier.h"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/Eigenvalues>
 
 namespace atlas_refine {
 namespace {
@@ -49,7 +48,8 @@ void add_interior(ContactDerivatives& out, const Closest& closest, const Vec2& e
   }
   norm_rest = std::sqrt(norm_rest);
   const Eigen::Vector3d z(norm_z, 0, 0), w(w_on_z, norm_rest, 0), y(0, 0, norm_z);
-  Mat3 form = curvature * z * z.transpose() - out.slope * (closest.distance * w * w.transpose() + w * y.transpose() + y * w.transpose());
+  Mat3 form =
+      curvature * z * z.transpose() - out.slope * (closest.distance * w * w.transpose() + w * y.transpose() + y * w.transpose());
   if (project) positive_part(form);
   // Rows: the three orthonormal forms as functions of the motion of vertex k.
   std::array<Eigen::Matrix<double, 3, 2>, 3> basis;
@@ -74,8 +74,8 @@ BarrierValue log_barrier(double x) {
   return {-u * u * l, -2 * u * l - u * u / x, -2 * l - 4 * u / x + u * u / (x * x)};
 }
 
-ContactDerivatives contact_derivatives(const Vec2& point, const Vec2& edge_start, const Vec2& edge_end, double floor, double range,
-                                       bool project) {
+ContactDerivatives contact_derivatives(const Vec2& point, const Vec2& edge_start, const Vec2& edge_end, double floor,
+                                       double range, bool project) {
   ContactDerivatives out;
   out.gradient.fill(Vec2::Zero());
   for (auto& row : out.hessian) row.fill(Mat2::Zero());
@@ -85,8 +85,10 @@ ContactDerivatives contact_derivatives(const Vec2& point, const Vec2& edge_start
   if (b.value == 0) return out;
   out.slope = b.slope / range;
   const double curvature = b.curvature / (range * range);
-  if (closest.along == 0 || closest.along == 1) add_end_point(out, closest, curvature, project);
-  else add_interior(out, closest, edge_end - edge_start, curvature, project);
+  if (closest.along == 0 || closest.along == 1)
+    add_end_point(out, closest, curvature, project);
+  else
+    add_interior(out, closest, edge_end - edge_start, curvature, project);
   return out;
 }
 

@@ -19,13 +19,13 @@ BarrierValue log_barrier(double x);
 /// One active point-edge contact: its value and derivatives for the point, the edge's start and its end.
 struct ContactDerivatives {
   double value = 0;
-  double slope = 0;                    ///< d value / d distance
+  double slope = 0;  ///< d value / d distance
   std::array<Vec2, 3> gradient;
   std::array<std::array<Mat2, 3>, 3> hessian;  ///< positive semidefinite: the full 6x6 is projected
 };
 
 /// Barrier on (distance - floor) / range. The distance must be above the floor.
-ContactDerivatives contact_derivatives(const Vec2& point, const Vec2& edge_start, const Vec2& edge_end, double floor, double range,
-                                       bool project = true);
+ContactDerivatives contact_derivatives(const Vec2& point, const Vec2& edge_start, const Vec2& edge_end, double floor,
+                                       double range, bool project = true);
 
 }  // namespace atlas_refine

@@ -5,11 +5,16 @@ namespace atlas_refine {
 
 const char* to_string(ErrorCode code) {
   switch (code) {
-    case ErrorCode::BadOption: return "bad_option";
-    case ErrorCode::BadInput: return "bad_input";
-    case ErrorCode::BoundNotReached: return "bound_not_reached";
-    case ErrorCode::NotCertified: return "not_certified";
-    case ErrorCode::Cancelled: return "cancelled";
+    case ErrorCode::BadOption:
+      return "bad_option";
+    case ErrorCode::BadInput:
+      return "bad_input";
+    case ErrorCode::BoundNotReached:
+      return "bound_not_reached";
+    case ErrorCode::NotCertified:
+      return "not_certified";
+    case ErrorCode::Cancelled:
+      return "cancelled";
   }
   return "unknown";
 }

@@ -22,7 +22,8 @@ void parallel_ranges(int count, int threads, int grain, const std::function<void
   std::vector<std::exception_ptr> errors(parts);
   const auto run = [&](int part) {
     try {
-      body(static_cast<int>(static_cast<long long>(count) * part / parts), static_cast<int>(static_cast<long long>(count) * (part + 1) / parts));
+      body(static_cast<int>(static_cast<long long>(count) * part / parts),
+           static_cast<int>(static_cast<long long>(count) * (part + 1) / parts));
     } catch (...) {
       errors[part] = std::current_exception();
     }
