@@ -113,7 +113,7 @@ class Operator(unittest.TestCase):
 
     def test_a_bound_out_of_reach(self):
         options = {"pe_bound": 0.999, "gap": "PIXELS", "gap_px": 50, "texture_size": 1024}
-        self.assert_refused(add_mesh(), ["PE"], **options)
+        self.assert_refused(add_mesh(), ["packing efficiency"], **options)
         obj = add_mesh()
         before = packing_efficiency(obj.data, obj.data.uv_layers.active)
         self.assertEqual(bpy.ops.uv.atlas_refine(best_effort=True, **options), {"FINISHED"})

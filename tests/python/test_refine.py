@@ -107,7 +107,7 @@ def test_a_bound_out_of_reach_is_an_error_and_best_effort_is_not():
     with pytest.raises(atlas_refine.AtlasRefineError) as caught:
         atlas_refine.refine(*arrays, pe_bound=0.999, gap=0.05)
     assert caught.value.code == "bound_not_reached"
-    assert "PE" in str(caught.value)
+    assert "packing efficiency" in str(caught.value)
     result = atlas_refine.refine(*arrays, pe_bound=0.999, gap=0.05, best_effort=True)
     assert not result.bound_met
     assert result.after.pe < 0.999
