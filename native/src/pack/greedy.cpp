@@ -4,15 +4,18 @@
 #include <limits>
 
 #include "pack/layout.h"
+#include "pack/occupancy.h"
 
 namespace atlas_refine {
 
-Layout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& rule) {
+Layout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& rule, Watch& watch) {
   Layout layout;
   layout.turns.assign(charts.size(), 0);
   layout.places.assign(charts.size(), {});
   Occupancy strip(rule.strip_width);
+  int placed = 0;
   for (const int chart : rule.order) {
+    watch.poll(static_cast<double>(placed++) / charts.size());
     double best_cost = INFINITY;
     int best_x = 0;
     const auto& rasters = charts[chart].rasters;

@@ -1,50 +1,72 @@
-// The search for a packing on the grid.
+// The search for a packing: cheap starts first, and on to the next means only
+// while the target is not reached.
 #include "pack/grid_search.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "pack/compaction.h"
 #include "pack/separation.h"
 #include "support/parallel.h"
 
 namespace atlas_refine {
 namespace {
 
-/// Width of the box that a layout needs, in cells, and its area.
-struct BoxRule {
-  double aspect;
+/// Beyond this many charts, separation and many starts cost more than they
+/// bring.
+constexpr int kManyCharts = 200;
+/// Beyond this many charts even compaction does.
+constexpr int kTooManyToCompact = 1000;
+constexpr int kFinalists = 4;
 
-  double area(double width, double height) const {
-    if (aspect <= 0) return width * height;
-    const double wide = std::max(width, aspect * height);
-    return wide * wide / aspect;
+double boundary_length(const Outline& outline) {
+  double length = 0;
+  for (const auto& loop : outline.loops) {
+    for (size_t k = 0; k < loop.size(); ++k) length += (loop[k] - loop[(k + 1) % loop.size()]).norm();
   }
+  return length;
+}
+
+/// The charts on a grid whose cell suits their number.
+struct Grid {
+  double cells_per_side;  ///< of the square that the charts would fill to four
+                          ///< fifths
+  double cell;
+  std::vector<GridChart> charts;
 };
 
-std::vector<GridChart> rasterise_all(const std::vector<Outline>& outlines, double radius, double cell, int boxes, int threads) {
-  std::vector<GridChart> charts(outlines.size());
-  parallel_ranges(static_cast<int>(outlines.size()), threads, 16, [&](int begin, int end) {
+Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options, Watch& watch) {
+  const int n = static_cast<int>(outlines.size());
+  double dilated_area = area;
+  for (const Outline& outline : outlines) dilated_area += 0.5 * options.gap * boundary_length(outline);
+  Grid grid;
+  grid.cells_per_side = std::clamp(256 * std::sqrt(n / 60.0), 256.0, 1024.0);
+  grid.cell = std::sqrt(dilated_area / 0.8) / grid.cells_per_side;
+  grid.charts.resize(n);
+  parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      for (Turn turn : small_box_turns(convex_hull(outlines[i]), boxes)) {
+      watch.poll(static_cast<double>(i - begin) / (end - begin));
+      for (Turn turn : small_box_turns(convex_hull(outlines[i]), n > kManyCharts ? 1 : 2)) {
         for (int quarter = 0; quarter < 4; ++quarter, turn = turn.quarter_turned()) {
-          charts[i].rasters.push_back(rasterise(outlines[i], turn, radius, cell));
+          grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options.gap, grid.cell));
         }
       }
     }
   });
-  return charts;
+  return grid;
 }
 
-/// A random rule: charts by size with some noise, a strip between tall and wide.
-GreedyRule random_rule(const std::vector<GridChart>& charts, double cells_per_side, double aspect, Rng rng) {
-  const int n = static_cast<int>(charts.size());
+/// A random rule: charts by size with some noise, a strip between tall and
+/// wide.
+GreedyRule random_rule(const Grid& grid, double aspect, Rng rng) {
+  const int n = static_cast<int>(grid.charts.size());
   GreedyRule rule;
   const double noise = rng.below(4) == 0 ? 0.0 : 0.4;
   std::vector<double> size(n);
   int widest = 0;
   for (int i = 0; i < n; ++i) {
-    const Raster& first = charts[i].rasters[0];
+    const Raster& first = grid.charts[i].rasters[0];
     size[i] = static_cast<double>(first.width) * first.height * std::exp(noise * rng.uniform(-1, 1));
     widest = std::max(widest, std::min(first.width, first.height));
   }
@@ -52,97 +74,116 @@ GreedyRule random_rule(const std::vector<GridChart>& charts, double cells_per_si
   std::iota(rule.order.begin(), rule.order.end(), 0);
   std::sort(rule.order.begin(), rule.order.end(), [&](int a, int b) { return size[a] != size[b] ? size[a] > size[b] : a < b; });
   const double width = aspect > 0 ? rng.uniform(0.95, 1.1) * std::sqrt(aspect) : rng.uniform(0.7, 1.4);
-  rule.strip_width = std::max(widest, static_cast<int>(cells_per_side * width));
+  rule.strip_width = std::max(widest, static_cast<int>(grid.cells_per_side * width));
   rule.height_weight = rng.uniform(0.3, 1.2);
   return rule;
 }
 
-void measure_box(const std::vector<GridChart>& charts, Layout& layout) {
-  layout.width = layout.height = 0;
-  for (size_t i = 0; i < charts.size(); ++i) {
-    const Raster& raster = charts[i].rasters[layout.turns[i]];
-    layout.width = std::max(layout.width, layout.places[i].x + raster.width);
-    layout.height = std::max(layout.height, layout.places[i].y + raster.height);
+std::vector<Placement> placements_of(const Grid& grid, const Layout& layout) {
+  std::vector<Placement> placements;
+  for (size_t i = 0; i < grid.charts.size(); ++i) {
+    const Raster& raster = grid.charts[i].rasters[layout.turns[i]];
+    const Vec2 corner = Vec2(layout.places[i].x, layout.places[i].y) * grid.cell;
+    placements.push_back({raster.turn.cosine, raster.turn.sine, corner - raster.origin});
   }
+  return placements;
 }
 
-/// Shrinks the layout's box again and again, by less after every few failures, until the work is used up.
-Layout shrink_box(const std::vector<GridChart>& charts, Layout best, const BoxRule& box, std::uint64_t seed, double budget) {
-  const int n = static_cast<int>(charts.size());
-  Separation separation(charts, Rng(seed, 1));
-  separation.budget = static_cast<std::int64_t>(budget);
-  double shrink = 0.01;
-  int fails = 0;
-  const int refails = 3;
-  for (int round = 0; separation.work() < separation.budget; ++round) {
-    Layout trial = best;
-    int w = best.width, h = best.height;
-    Rng rng(seed, 2, round);
-    if (box.aspect > 0) {
-      const double wide = std::max<double>(w, h * box.aspect) * (1 - shrink / 2);
-      w = static_cast<int>(std::ceil(wide)) - 1;
-      h = static_cast<int>(std::ceil(wide / box.aspect)) - 1;
-    } else {
-      int& side = rng.below(2) ? w : h;
-      side -= std::max<int>(1, std::lround(shrink * side));
-    }
-    if (fails) {
-      for (int q = 0; q < 1 + rng.below(2); ++q) std::swap(trial.places[rng.below(n)], trial.places[rng.below(n)]);
-    }
-    if (separation.run(trial, w, h)) {
-      measure_box(charts, trial);
-      best = trial;
-      fails = 0;
-    } else if (++fails > refails) {
-      shrink = std::max(0.001, shrink / 2);
-      fails = 1;
-    }
+/// The search's state: the layouts so far, and the best placements of those
+/// that were compacted.
+class Search {
+ public:
+  Search(const std::vector<Outline>& outlines, double area, const PackOptions& options)
+      : outlines_(outlines),
+        options_(options),
+        threads_(resolve_threads(options.threads)),
+        watch_(options.tick),
+        enough_(area / options.target_pe) {
+    watch_.begin_part(0, 0.05);
+    grid_ = make_grid(outlines, area, options, watch_);
   }
-  return best;
-}
+
+  std::vector<Placement> run() {
+    const int n = static_cast<int>(outlines_.size());
+    start_greedily(n > kManyCharts ? std::clamp(2000 / n, 1, 8) : 64);
+    if (least_area_ > enough_ && n <= kTooManyToCompact) compact_best(1, 0.3, 0.4);
+    if (least_area_ > enough_ && n <= kManyCharts) {
+      shrink_best();
+      if (least_area_ > enough_) compact_best(kFinalists, 0.9, 1);
+    }
+    return best_;
+  }
+
+ private:
+  double area_of(const Layout& layout) const {
+    return box_area(layout.width * grid_.cell, layout.height * grid_.cell, options_.box_aspect);
+  }
+
+  /// Smallest box first; keeps the best placements up to date.
+  void rank() {
+    std::stable_sort(layouts_.begin(), layouts_.end(), [&](const Layout& a, const Layout& b) { return area_of(a) < area_of(b); });
+    offer(placements_of(grid_, layouts_[0]));
+  }
+
+  void offer(std::vector<Placement> placements) {
+    const Vec2 size = placed_box(outlines_, placements).size();
+    const double area = box_area(size.x(), size.y(), options_.box_aspect);
+    if (area >= least_area_) return;
+    least_area_ = area;
+    best_ = std::move(placements);
+  }
+
+  void start_greedily(int starts) {
+    layouts_.resize(starts);
+    watch_.begin_part(0.05, 0.3);
+    parallel_ranges(starts, threads_, 1, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) {
+        layouts_[k] = place_greedily(grid_.charts, random_rule(grid_, options_.box_aspect, Rng(options_.seed, 0, k)), watch_);
+      }
+    });
+    rank();
+  }
+
+  void shrink_best() {
+    std::vector<Layout> shrunk(kFinalists);
+    watch_.begin_part(0.4, 0.9);
+    parallel_ranges(kFinalists, threads_, 1, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) {
+        const BoxGoal goal{options_.box_aspect, enough_ / (grid_.cell * grid_.cell)};
+        shrunk[k] = shrink_box(grid_.charts, layouts_[k], goal, options_.seed + k, watch_);
+      }
+    });
+    layouts_.insert(layouts_.end(), shrunk.begin(), shrunk.end());
+    rank();
+  }
+
+  void compact_best(int count, double from, double to) {
+    std::vector<std::vector<Placement>> compacted(count);
+    watch_.begin_part(from, to);
+    parallel_ranges(count, threads_, 1, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) {
+        const CompactionOptions options{options_.gap, options_.box_aspect, 2 * grid_.cell, [&] { watch_.poll(0); }};
+        compacted[k] = compact(outlines_, placements_of(grid_, layouts_[k]), options);
+      }
+    });
+    for (auto& placements : compacted) offer(std::move(placements));
+  }
+
+  const std::vector<Outline>& outlines_;
+  const PackOptions& options_;
+  int threads_;
+  Watch watch_;
+  double enough_;  ///< box area at which the target is reached
+  Grid grid_;
+  std::vector<Layout> layouts_;  ///< smallest box first
+  std::vector<Placement> best_;
+  double least_area_ = INFINITY;
+};
 
 }  // namespace
 
-std::vector<Placement> search_on_grid(const std::vector<Outline>& outlines, double area, double dilated_area,
-                                      const PackOptions& options) {
-  const int n = static_cast<int>(outlines.size());
-  const double cells_per_side = 256;
-  const double cell = std::sqrt(dilated_area / 0.8) / cells_per_side;
-  const int threads = resolve_threads(options.threads);
-  const auto charts = rasterise_all(outlines, 0.5 * options.gap, cell, 2, threads);
-  const BoxRule box{options.box_aspect};
-  const int starts = n > 400 ? 4 : 32;
-  std::vector<Layout> layouts(starts);
-  parallel_ranges(starts, threads, 1, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      layouts[k] = place_greedily(charts, random_rule(charts, cells_per_side, options.box_aspect, Rng(options.seed, 0, k)));
-      if (begin == 0 && options.tick) options.tick(0.3 * (k + 1) / end);
-    }
-  });
-  const auto smaller = [&](const Layout& a, const Layout& b) {
-    return box.area(a.width, a.height) < box.area(b.width, b.height);
-  };
-  Layout best = *std::min_element(layouts.begin(), layouts.end(), smaller);
-  const auto reached = [&] { return area >= options.target_pe * box.area(best.width * cell, best.height * cell); };
-  if (!reached() && n <= 200) {
-    const int tasks = 4;
-    std::stable_sort(layouts.begin(), layouts.end(), smaller);
-    std::vector<Layout> shrunk(tasks);
-    const int spread = 1;
-    parallel_ranges(tasks, threads, 1, [&](int begin, int end) {
-      for (int k = begin; k < end; ++k) {
-        shrunk[k] = shrink_box(charts, layouts[k * spread], box, options.seed + k, 20e6);
-        if (begin == 0 && options.tick) options.tick(0.3 + 0.7 * (k + 1) / end);
-      }
-    });
-    best = *std::min_element(shrunk.begin(), shrunk.end(), smaller);
-  }
-  std::vector<Placement> placements;
-  for (int i = 0; i < n; ++i) {
-    const Raster& raster = charts[i].rasters[best.turns[i]];
-    placements.push_back({raster.turn.cosine, raster.turn.sine, Vec2(best.places[i].x, best.places[i].y) * cell - raster.origin});
-  }
-  return placements;
+std::vector<Placement> search_on_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options) {
+  return Search(outlines, area, options).run();
 }
 
 }  // namespace atlas_refine

@@ -3,7 +3,9 @@
 
 #include <vector>
 
-#include "pack/occupancy.h"
+#include "measure/distortion.h"
+#include "pack/raster.h"
+#include "pack/watch.h"
 
 namespace atlas_refine {
 
@@ -20,14 +22,21 @@ struct Layout {
   int height = 0;
 };
 
+/// Area of the box that charts of this extent need, of the asked aspect where
+/// it is not 0.
+inline double box_area(double width, double height, double aspect) {
+  return box_of_aspect({Vec2::Zero(), Vec2(width, height)}, aspect).area();
+}
+
 /// How the greedy placement goes about it.
 struct GreedyRule {
   std::vector<int> order;    ///< charts in the order they are placed
-  int strip_width = 0;       ///< cells
+  int strip_width = 0;       ///< cells; no chart may be wider in all its turns
   double height_weight = 1;  ///< a chart goes where y + height_weight * (its height) is smallest
 };
 
-/// Places charts one after another, each in the turn and at the place that the rule likes best.
-Layout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& rule);
+/// Places charts one after another, each in the turn and at the place that the
+/// rule likes best.
+Layout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& rule, Watch& watch);
 
 }  // namespace atlas_refine

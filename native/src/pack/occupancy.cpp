@@ -21,6 +21,28 @@ Occupancy::Occupancy(int width) : width_(width), words_(width / 64 + 2), levels_
 void Occupancy::grow(int rows) {
   const size_t size = static_cast<size_t>(rows) * levels_ * words_;
   if (taken_.size() < size) taken_.resize(size * 3 / 2, 0);
+  if (static_cast<int>(longest_free_.size()) < rows) longest_free_.resize(rows, width_);
+}
+
+int Occupancy::longest_free_run(int y) {
+  const std::uint64_t* row = level_row(y, 0);
+  int longest = 0;
+  for (int x = 0; x < width_;) {
+    // To the next free cell, then to the next taken one.
+    const std::uint64_t free = ~bits_from(row, x);
+    if (free == 0) {
+      x += 64;
+      continue;
+    }
+    const int begin = x + std::countr_zero(free);
+    for (x = begin; x < width_;) {
+      const std::uint64_t taken = bits_from(row, x);
+      x += taken == 0 ? 64 : std::countr_zero(taken);
+      if (taken != 0) break;
+    }
+    longest = std::max(longest, std::min(x, width_) - begin);
+  }
+  return longest;
 }
 
 void Occupancy::add(const Raster& raster, const Cell& place) {
@@ -31,6 +53,7 @@ void Occupancy::add(const Raster& raster, const Cell& place) {
     for (int x = place.x + run.begin; x < place.x + run.end; ++x) row[x >> 6] |= std::uint64_t{1} << (x & 63);
   }
   for (int y = place.y; y < place.y + raster.height; ++y) {
+    longest_free_[y] = longest_free_run(y);
     for (int level = 1; level < levels_; ++level) {
       const std::uint64_t* below = level_row(y, level - 1);
       std::uint64_t* row = level_row(y, level);
@@ -44,42 +67,45 @@ void Occupancy::add(const Raster& raster, const Cell& place) {
   }
 }
 
-bool Occupancy::free_positions(const Raster& raster, const std::vector<int>& order, int y, int positions) {
-  const int words = (positions + 63) / 64;
-  std::fill_n(blocked_.begin(), words, 0);
-  if (positions & 63) blocked_[words - 1] = ~std::uint64_t{0} << (positions & 63);
+std::uint64_t Occupancy::blocked_word(const Raster& raster, const std::vector<int>& order, int y, int word) {
+  std::uint64_t blocked = 0;
   for (const int k : order) {
     const Run& run = raster.runs[k];
     if (y + run.row >= height_) continue;
     const int level = std::bit_width(static_cast<unsigned>(run.end - run.begin)) - 1;
     const std::uint64_t* row = level_row(y + run.row, level);
-    const int first = run.begin, second = run.end - (1 << level);
-    std::uint64_t all = ~std::uint64_t{0};
-    for (int word = 0; word < words; ++word) {
-      blocked_[word] |= bits_from(row, word * 64 + first) | bits_from(row, word * 64 + second);
-      all &= blocked_[word];
-    }
-    if (all == ~std::uint64_t{0}) return false;
+    blocked |= bits_from(row, word * 64 + run.begin) | bits_from(row, word * 64 + run.end - (1 << level));
+    if (blocked == ~std::uint64_t{0}) break;
   }
-  return true;
+  return blocked;
 }
 
 bool Occupancy::find_lowest(const Raster& raster, int highest, Cell& place) {
   const int positions = width_ - raster.width + 1;
   if (positions <= 0) return false;
-  blocked_.resize(words_);
-  // Long runs first: they block most.
-  std::vector<int> order(raster.runs.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int p, int q) {
-    const int a = raster.runs[p].end - raster.runs[p].begin, b = raster.runs[q].end - raster.runs[q].begin;
-    return a != b ? a > b : p < q;
-  });
+  // The longest run first, then runs spread over all heights: each is likely to
+  // block what those before it did not.
+  const int count = static_cast<int>(raster.runs.size());
+  std::vector<int> order;
+  const auto length = [&](int k) { return raster.runs[k].end - raster.runs[k].begin; };
+  for (int k = 0, longest_run = 0; k < count; ++k) {
+    if (length(k) > length(longest_run)) longest_run = k;
+    if (k + 1 == count) order.push_back(longest_run);
+  }
+  const int bits = std::bit_width(static_cast<unsigned>(count - 1));
+  for (unsigned k = 0; k < 1u << bits; ++k) {
+    unsigned reversed = 0;
+    for (int bit = 0; bit < bits; ++bit) reversed |= (k >> bit & 1) << (bits - 1 - bit);
+    if (static_cast<int>(reversed) < count) order.push_back(reversed);
+  }
+  const int longest_row = raster.runs[order[0]].row, longest = length(order[0]);
   for (int y = 0; y <= std::min(highest, height_); ++y) {
-    if (!free_positions(raster, order, y, positions)) continue;
-    for (int word = 0;; ++word) {
-      if (~blocked_[word] == 0) continue;
-      place = {word * 64 + std::countr_one(blocked_[word]), y};
+    if (y + longest_row < height_ && longest_free_[y + longest_row] < longest) continue;
+    for (int word = 0; word * 64 < positions; ++word) {
+      std::uint64_t blocked = blocked_word(raster, order, y, word);
+      if (positions - word * 64 < 64) blocked |= ~std::uint64_t{0} << (positions - word * 64);
+      if (blocked == ~std::uint64_t{0}) continue;
+      place = {word * 64 + std::countr_one(blocked), y};
       return true;
     }
   }

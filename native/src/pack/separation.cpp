@@ -1,93 +1,154 @@
-// Guided local search on overlaps: each pair's overlap has a weight that grows while it lasts.
+// Guided local search on overlaps: each pair's overlap has a weight that grows
+// while it lasts.
 #include "pack/separation.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace atlas_refine {
+namespace {
 
-Cell Separation::clamped(const Raster& raster, Cell place) const {
-  return {std::clamp(place.x, 0, std::max(0, width_ - raster.width)),
-          std::clamp(place.y, 0, std::max(0, height_ - raster.height))};
-}
+/// Work of one shrink_box, in row words compared: about 0.15 s.
+constexpr std::int64_t kBudget = 20'000'000;
+/// Passes over the overlapping charts without progress before a separation
+/// gives up.
+constexpr int kPatience = 60;
 
+struct Pose {
+  int turn;
+  Cell place;
+  double cost;
+};
+
+class Separation {
+ public:
+  Separation(const std::vector<GridChart>& charts, Rng rng, Watch& watch)
+      : charts_(charts), n_(static_cast<int>(charts.size())), rng_(rng), watch_(watch), loss_(n_ * n_), weights_(n_ * n_) {}
+
+  bool exhausted() const { return work_ >= kBudget; }
+
+  /// Moves and turns the charts until no two overlap inside width x height
+  /// cells; false where it gives up.
+  bool run(Layout& layout, int width, int height);
+
+ private:
+  double& loss(int a, int b) { return loss_[a * n_ + b]; }
+  Cell clamped(const Raster& raster, const Cell& place) const {
+    return {std::clamp(place.x, 0, width_ - raster.width), std::clamp(place.y, 0, height_ - raster.height)};
+  }
+  bool fits(const Raster& raster) const { return raster.width <= width_ && raster.height <= height_; }
+  bool overlaps(int chart) const {
+    return std::any_of(loss_.begin() + chart * n_, loss_.begin() + (chart + 1) * n_, [](double l) { return l > 0; });
+  }
+  bool move_inside();
+  double pair_loss(int a, int b, int turn, const Cell& place);
+  double cost_at(int chart, int turn, const Cell& place, double bound);
+  bool random_pose(int chart, bool near, Pose& pose);
+  Pose descend(int chart, Pose pose, int step);
+  Pose best_pose(int chart);
+  void move(int chart, const Pose& pose);
+  void separate_once();
+  double total_loss() const;
+  void update_weights();
+
+  const std::vector<GridChart>& charts_;
+  int n_;
+  Rng rng_;
+  Watch& watch_;
+  std::vector<double> loss_;     ///< n x n, symmetric
+  std::vector<double> weights_;  ///< n x n, symmetric
+  Layout* layout_ = nullptr;
+  int width_ = 0;
+  int height_ = 0;
+  std::int64_t work_ = 0;
+};
+
+/// Root of the overlap's area: a depth, so that a thin overlap counts about as
+/// much as its removal costs.
 double Separation::pair_loss(int a, int b, int turn, const Cell& place) {
-  const Raster& ra = charts_[a].rasters[turn];
-  const Raster& rb = charts_[b].rasters[layout_->turns[b]];
-  const Cell& pb = layout_->places[b];
-  const int rows = std::min(place.y + ra.height, pb.y + rb.height) - std::max(place.y, pb.y);
-  const int columns = std::min(place.x + ra.width, pb.x + rb.width) - std::max(place.x, pb.x);
+  const Raster& one = charts_[a].rasters[turn];
+  const Raster& two = charts_[b].rasters[layout_->turns[b]];
+  const Cell& other = layout_->places[b];
+  const int rows = std::min(place.y + one.height, other.y + two.height) - std::max(place.y, other.y);
+  const int columns = std::min(place.x + one.width, other.x + two.width) - std::max(place.x, other.x);
   if (rows <= 0 || columns <= 0) return 0;
   work_ += rows * (1 + columns / 64) + 4;
-  const int count = shared_cells(ra, place, rb, pb);
-  if (count == 0) return 0;
-  return std::sqrt(count);
+  return std::sqrt(static_cast<double>(shared_cells(one, place, two, other)));
 }
 
+/// Weighted overlap of a chart in a pose, or any value >= bound once it is
+/// clear that it is no less.
 double Separation::cost_at(int chart, int turn, const Cell& place, double bound) {
-  const int n = static_cast<int>(charts_.size());
+  work_ += n_ / 4 + 1;
   double cost = 0;
-  work_ += n / 4 + 1;
-  for (int other = 0; other < n && cost < bound; ++other) {
-    if (other != chart) cost += weights_[chart * n + other] * pair_loss(chart, other, turn, place);
+  for (int other = 0; other < n_ && cost < bound; ++other) {
+    if (other != chart) cost += weights_[chart * n_ + other] * pair_loss(chart, other, turn, place);
   }
   return cost;
 }
 
-Separation::Pose Separation::descend(int chart, Pose pose, int step) {
+/// Anywhere in the box, or near the present place; false where the turn drawn
+/// does not fit.
+bool Separation::random_pose(int chart, bool near, Pose& pose) {
+  const auto& rasters = charts_[chart].rasters;
+  pose.turn = rng_.below(static_cast<int>(rasters.size()));
+  const Raster& raster = rasters[pose.turn];
+  if (!fits(raster)) return false;
+  if (!near) {
+    pose.place.x = rng_.below(width_ - raster.width + 1);
+    pose.place.y = rng_.below(height_ - raster.height + 1);
+    return true;
+  }
+  const Raster& present = rasters[layout_->turns[chart]];
+  const auto shifted = [&](int place, int old_size, int size) {
+    const int reach = std::max(2, size / 3);
+    return place + (old_size - size) / 2 + rng_.below(2 * reach + 1) - reach;
+  };
+  pose.place.x = shifted(layout_->places[chart].x, present.width, raster.width);
+  pose.place.y = shifted(layout_->places[chart].y, present.height, raster.height);
+  pose.place = clamped(raster, pose.place);
+  return true;
+}
+
+Pose Separation::descend(int chart, Pose pose, int step) {
+  static constexpr int kDx[] = {1, -1, 0, 0, 1, -1, 1, -1}, kDy[] = {0, 0, 1, -1, 1, -1, -1, 1};
   const Raster& raster = charts_[chart].rasters[pose.turn];
   while (step >= 1 && pose.cost > 0) {
-    static constexpr int kDx[] = {1, -1, 0, 0, 1, -1, 1, -1}, kDy[] = {0, 0, 1, -1, 1, -1, -1, 1};
     const int start = rng_.below(8);
     bool moved = false;
-    for (int k = 0; k < 8 && !moved; ++k) {
-      const int d = (start + k) % 8;
-      const Cell place = clamped(raster, {pose.place.x + step * kDx[d], pose.place.y + step * kDy[d]});
+    for (int k = start; k < start + 8 && !moved; ++k) {
+      const Cell place = clamped(raster, {pose.place.x + step * kDx[k % 8], pose.place.y + step * kDy[k % 8]});
       if (place.x == pose.place.x && place.y == pose.place.y) continue;
       const double cost = cost_at(chart, pose.turn, place, pose.cost);
-      if (cost < pose.cost) {
-        pose.place = place;
-        pose.cost = cost;
-        moved = true;
-      }
+      moved = cost < pose.cost;
+      if (moved) pose = {pose.turn, place, cost};
     }
     if (!moved) step /= 2;
   }
   return pose;
 }
 
-Separation::Pose Separation::best_pose(int chart) {
-  const auto& rasters = charts_[chart].rasters;
-  const int turns = static_cast<int>(rasters.size());
+/// Samples poses, and descends from the best few of them and from the present
+/// one.
+Pose Separation::best_pose(int chart) {
+  constexpr int kAnywhere = 40, kNear = 10;
+  constexpr size_t kKept = 3;
   std::vector<Pose> kept;
-  const size_t keep = 3;
-  const int global = 40, local = 10;
-  const int here = layout_->turns[chart];
-  const Cell centre{layout_->places[chart].x + rasters[here].width / 2, layout_->places[chart].y + rasters[here].height / 2};
-  const Pose current{here, layout_->places[chart], cost_at(chart, here, layout_->places[chart], INFINITY)};
-  for (int k = 0; k < global + local; ++k) {
-    const int turn = rng_.below(turns);
-    const Raster& raster = rasters[turn];
-    if (raster.width > width_ || raster.height > height_) continue;
-    Cell place;
-    if (k < global) {
-      place = {rng_.below(width_ - raster.width + 1), rng_.below(height_ - raster.height + 1)};
-    } else {
-      const int reach_x = std::max(2, raster.width / 3), reach_y = std::max(2, raster.height / 3);
-      place = clamped(raster, {centre.x - raster.width / 2 + rng_.below(2 * reach_x + 1) - reach_x,
-                               centre.y - raster.height / 2 + rng_.below(2 * reach_y + 1) - reach_y});
-    }
-    const double bound = kept.size() < keep ? INFINITY : kept.back().cost;
-    const double cost = cost_at(chart, turn, place, bound);
-    if (cost >= bound) continue;
-    const Pose pose{turn, place, cost};
-    if (kept.size() == keep) kept.pop_back();
+  for (int k = 0; k < kAnywhere + kNear; ++k) {
+    Pose pose;
+    if (!random_pose(chart, k >= kAnywhere, pose)) continue;
+    const double bound = kept.size() < kKept ? INFINITY : kept.back().cost;
+    pose.cost = cost_at(chart, pose.turn, pose.place, bound);
+    if (pose.cost >= bound) continue;
+    if (kept.size() == kKept) kept.pop_back();
     kept.insert(std::upper_bound(kept.begin(), kept.end(), pose, [](const Pose& a, const Pose& b) { return a.cost < b.cost; }),
                 pose);
   }
-  Pose best = descend(chart, current, 4);
+  const int turn = layout_->turns[chart];
+  const Cell place = layout_->places[chart];
+  Pose best = descend(chart, {turn, place, cost_at(chart, turn, place, INFINITY)}, 4);
   for (const Pose& pose : kept) {
-    const Raster& raster = rasters[pose.turn];
+    const Raster& raster = charts_[chart].rasters[pose.turn];
     const Pose refined = descend(chart, pose, std::max(1, std::min(raster.width, raster.height) / 8));
     if (refined.cost < best.cost) best = refined;
   }
@@ -95,21 +156,29 @@ Separation::Pose Separation::best_pose(int chart) {
 }
 
 void Separation::move(int chart, const Pose& pose) {
-  const int n = static_cast<int>(charts_.size());
   layout_->turns[chart] = pose.turn;
   layout_->places[chart] = pose.place;
-  for (int other = 0; other < n; ++other) {
-    if (other == chart) continue;
-    loss_[chart * n + other] = loss_[other * n + chart] = pair_loss(chart, other, pose.turn, pose.place);
+  for (int other = 0; other < n_; ++other) {
+    if (other != chart) loss(chart, other) = loss(other, chart) = pair_loss(chart, other, pose.turn, pose.place);
+  }
+}
+
+/// One pass over the charts that overlap, in random order.
+void Separation::separate_once() {
+  std::vector<int> order;
+  for (int chart = 0; chart < n_; ++chart) {
+    if (overlaps(chart)) order.push_back(chart);
+  }
+  for (int k = static_cast<int>(order.size()) - 1; k > 0; --k) std::swap(order[k], order[rng_.below(k + 1)]);
+  for (const int chart : order) {
+    watch_.poll(static_cast<double>(work_) / kBudget);
+    if (overlaps(chart)) move(chart, best_pose(chart));
   }
 }
 
 double Separation::total_loss() const {
-  const int n = static_cast<int>(charts_.size());
   double total = 0;
-  for (int a = 0; a < n; ++a) {
-    for (int b = 0; b < a; ++b) total += loss_[a * n + b];
-  }
+  for (const double l : loss_) total += l;
   return total;
 }
 
@@ -120,53 +189,90 @@ void Separation::update_weights() {
   }
 }
 
+/// False where a chart is too large for the box in all its turns.
+bool Separation::move_inside() {
+  for (int chart = 0; chart < n_; ++chart) {
+    const auto& rasters = charts_[chart].rasters;
+    int& turn = layout_->turns[chart];
+    if (!fits(rasters[turn])) {
+      const auto fitting = std::find_if(rasters.begin(), rasters.end(), [&](const Raster& raster) { return fits(raster); });
+      if (fitting == rasters.end()) return false;
+      turn = static_cast<int>(fitting - rasters.begin());
+    }
+    layout_->places[chart] = clamped(rasters[turn], layout_->places[chart]);
+  }
+  return true;
+}
+
 bool Separation::run(Layout& layout, int width, int height) {
-  const int n = static_cast<int>(charts_.size());
   layout_ = &layout;
-  work_ += 10000;
   width_ = width;
   height_ = height;
-  loss_.assign(static_cast<size_t>(n) * n, 0);
-  weights_.assign(static_cast<size_t>(n) * n, 1);
-  for (int chart = 0; chart < n; ++chart) {
-    if (charts_[chart].rasters[layout.turns[chart]].width > width ||
-        charts_[chart].rasters[layout.turns[chart]].height > height) {
-      bool fits = false;
-      for (size_t t = 0; t < charts_[chart].rasters.size() && !fits; ++t) {
-        if (charts_[chart].rasters[t].width <= width && charts_[chart].rasters[t].height <= height)
-          layout.turns[chart] = t, fits = true;
-      }
-      if (!fits) return false;
-    }
-    layout.places[chart] = clamped(charts_[chart].rasters[layout.turns[chart]], layout.places[chart]);
-  }
-  for (int chart = 0; chart < n; ++chart) move(chart, {layout.turns[chart], layout.places[chart], 0});
+  work_ += 10000;  // so that boxes too small for a chart come to an end, too
+  if (!move_inside()) return false;
+  std::fill(loss_.begin(), loss_.end(), 0.0);
+  std::fill(weights_.begin(), weights_.end(), 1.0);
+  for (int chart = 0; chart < n_; ++chart) move(chart, {layout.turns[chart], layout.places[chart], 0});
   double least = total_loss();
-  const int patience = 60;
-  std::vector<int> order;
-  for (int stalled = 0; stalled < patience && work_ < budget; ++stalled) {
-    if (least == 0) return true;
-    order.clear();
-    for (int a = 0; a < n; ++a) {
-      for (int b = 0; b < n; ++b) {
-        if (loss_[a * n + b] > 0) {
-          order.push_back(a);
-          break;
-        }
-      }
-    }
-    for (int k = static_cast<int>(order.size()) - 1; k > 0; --k) std::swap(order[k], order[rng_.below(k + 1)]);
-    for (const int chart : order) {
-      bool overlaps = false;
-      for (int b = 0; b < n && !overlaps; ++b) overlaps = loss_[chart * n + b] > 0;
-      if (overlaps) move(chart, best_pose(chart));
-    }
+  for (int stalled = 0; least > 0 && stalled < kPatience && !exhausted(); ++stalled) {
+    separate_once();
     const double total = total_loss();
     if (total < 0.98 * least) stalled = 0;
     least = std::min(least, total);
     update_weights();
   }
   return least == 0;
+}
+
+void measure_box(const std::vector<GridChart>& charts, Layout& layout) {
+  layout.width = layout.height = 0;
+  for (size_t i = 0; i < charts.size(); ++i) {
+    const Raster& raster = charts[i].rasters[layout.turns[i]];
+    layout.width = std::max(layout.width, layout.places[i].x + raster.width);
+    layout.height = std::max(layout.height, layout.places[i].y + raster.height);
+  }
+}
+
+/// A box smaller by the fraction `shrink`: of the aspect, or narrower on one
+/// side.
+Cell smaller_box(const Layout& layout, double aspect, double shrink, Rng& rng) {
+  if (aspect > 0) {
+    const double width = std::max<double>(layout.width, layout.height * aspect) * (1 - 0.5 * shrink);
+    return {static_cast<int>(std::ceil(width)) - 1, static_cast<int>(std::ceil(width / aspect)) - 1};
+  }
+  Cell box{layout.width, layout.height};
+  int& side = rng.below(2) ? box.x : box.y;
+  side -= std::max(1, static_cast<int>(std::lround(shrink * side)));
+  return box;
+}
+
+}  // namespace
+
+Layout shrink_box(const std::vector<GridChart>& charts, const Layout& start, const BoxGoal& goal, std::uint64_t seed,
+                  Watch& watch) {
+  constexpr int kTries = 3;
+  const int n = static_cast<int>(charts.size());
+  Separation separation(charts, Rng(seed, 1), watch);
+  Layout best = start;
+  double shrink = 0.01;
+  int failures = 0;
+  for (int round = 0; !separation.exhausted() && box_area(best.width, best.height, goal.aspect) > goal.enough; ++round) {
+    Rng rng(seed, 2, round);
+    Layout trial = best;
+    const Cell box = smaller_box(best, goal.aspect, shrink, rng);
+    if (failures > 0) {
+      for (int swaps = 1 + rng.below(2); swaps > 0; --swaps) std::swap(trial.places[rng.below(n)], trial.places[rng.below(n)]);
+    }
+    if (box.x > 0 && box.y > 0 && separation.run(trial, box.x, box.y)) {
+      measure_box(charts, trial);
+      best = std::move(trial);
+      failures = 0;
+    } else if (++failures > kTries) {
+      shrink = std::max(0.001, 0.5 * shrink);
+      failures = 1;
+    }
+  }
+  return best;
 }
 
 }  // namespace atlas_refine
