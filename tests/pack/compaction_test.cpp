@@ -1,0 +1,67 @@
+// Compaction: charts close up to the gap exactly, turn where that helps, and never overlap.
+#include "pack/compaction.h"
+
+#include <gtest/gtest.h>
+
+#include "outlines.h"
+
+namespace atlas_refine {
+namespace {
+
+CompactionOptions options_for(double gap, double aspect = 0) {
+  return {gap, aspect, 0.02, [] {}};
+}
+
+TEST(Compaction, TwoSquaresCloseUpToTheGap) {
+  const auto square = testing::outline_of(shapes::rectangle(1, 1));
+  const std::vector<Placement> start{{1, 0, {0, 0}}, {1, 0, {1.06, 0.0}}};
+  const auto result = compact({square, square}, start, options_for(0.01));
+  EXPECT_NEAR(placed_box({square, square}, result).size().x(), 2.01, 1e-4);
+  EXPECT_GE(testing::smallest_distance({square, square}, result), 0.01);
+  EXPECT_NEAR(testing::smallest_distance({square, square}, result), 0.01, 1e-6);
+}
+
+TEST(Compaction, ATurnedChartTurnsBack) {
+  const auto square = testing::outline_of(shapes::rectangle(1, 1));
+  const double angle_rad = 0.05;
+  const std::vector<Placement> start{{1, 0, {0, 0}}, {std::cos(angle_rad), std::sin(angle_rad), {1.12, 0.02}}};
+  const auto result = compact({square, square}, start, options_for(0.01));
+  EXPECT_NEAR(placed_box({square, square}, result).area(), 2.01, 2e-3);
+}
+
+TEST(Compaction, ChartsInterlock) {
+  const auto comb = testing::outline_of(shapes::comb(3));
+  // Teeth up, and teeth down into the spaces, not yet all the way.
+  const std::vector<Placement> start{{1, 0, {0, 0}}, {-1, 0, {1.2, 1.0}}};
+  ASSERT_GT(testing::smallest_distance({comb, comb}, start), 0);
+  const double before = placed_box({comb, comb}, start).area();
+  const auto result = compact({comb, comb}, start, options_for(1e-3));
+  EXPECT_LT(placed_box({comb, comb}, result).area(), before);
+  EXPECT_GE(testing::smallest_distance({comb, comb}, result), 1e-3);
+}
+
+TEST(Compaction, AFixedAspectCountsTheWholeBox) {
+  const auto square = testing::outline_of(shapes::rectangle(1, 1));
+  // In a square box only the longer side matters.
+  const std::vector<Placement> start{{1, 0, {0, 0}}, {1, 0, {1.1, 0.05}}};
+  const auto result = compact({square, square}, start, options_for(0.01, 1));
+  EXPECT_NEAR(placed_box({square, square}, result).size().maxCoeff(), 2.01, 1e-3);
+}
+
+TEST(Compaction, RandomChartsNeverGetWorse) {
+  for (int seed = 1; seed <= 10; ++seed) {
+    std::vector<Outline> outlines;
+    std::vector<Placement> start;
+    for (int k = 0; k < 9; ++k) {
+      outlines.push_back(testing::outline_of(shapes::random_star_polygon(10 * seed + k)));
+      start.push_back({1, 0, {1.03 * (k % 3), 1.03 * (k / 3)}});
+    }
+    const double before = placed_box(outlines, start).area();
+    const auto result = compact(outlines, start, options_for(0.02));
+    EXPECT_LT(placed_box(outlines, result).area(), 0.9 * before);
+    EXPECT_GE(testing::smallest_distance(outlines, result), 0.02);
+  }
+}
+
+}  // namespace
+}  // namespace atlas_refine

@@ -1,0 +1,176 @@
+// The packer as a whole: the gap and the box hold on every kind of chart, the answer is good and always the same.
+#include "pack/pack_charts.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <stdexcept>
+
+#include "outlines.h"
+#include "support/rng.h"
+
+namespace atlas_refine {
+namespace {
+
+using testing::Charts;
+
+/// Checks everything that a packing promises.
+void expect_sound(const Charts& charts, const PackOptions& options, const Packing& packing) {
+  ASSERT_EQ(packing.placements.size(), charts.outlines.size());
+  EXPECT_GE(testing::smallest_distance(charts.outlines, packing.placements), options.gap);
+  EXPECT_GT(testing::smallest_distance(charts.outlines, packing.placements), 0);
+  const double slack = 1e-9 * packing.box.diagonal();
+  for (std::size_t i = 0; i < charts.outlines.size(); ++i) {
+    const Placement& placement = packing.placements[i];
+    EXPECT_NEAR(std::hypot(placement.cosine, placement.sine), 1, 1e-14);
+    for (const auto& loop : testing::placed(charts.outlines[i], placement).loops) {
+      for (const Vec2& p : loop) {
+        EXPECT_GE(p.minCoeff(), -slack);
+        EXPECT_LE((p - packing.box.max).maxCoeff(), slack);
+      }
+    }
+  }
+  EXPECT_EQ(packing.box.min, Vec2(0, 0));
+  EXPECT_NEAR(packing.pe, charts.area / packing.box.area(), 1e-12);
+  if (options.box_aspect > 0) EXPECT_NEAR(packing.box.size().x() / packing.box.size().y(), options.box_aspect, 1e-9);
+}
+
+Packing pack(const Charts& charts, const PackOptions& options) {
+  const Packing packing = pack_charts(charts.outlines, charts.areas, options);
+  expect_sound(charts, options, packing);
+  return packing;
+}
+
+Charts named_charts() {
+  Charts charts;
+  for (const auto& shape : shapes::named_polygons()) charts.add(shape.polygon);
+  return charts;
+}
+
+Charts random_charts(int count, std::uint64_t seed) {
+  Charts charts;
+  for (int k = 0; k < count; ++k) {
+    Rng rng(seed, k);
+    const auto polygon = k % 2 ? shapes::random_polygon(seed + k) : shapes::random_star_polygon(seed + k);
+    charts.add(shapes::transformed(polygon, rng.uniform(0.2, 1.0), rng.uniform(0, 6), {rng.uniform(), rng.uniform()}));
+  }
+  return charts;
+}
+
+TEST(PackCharts, NoChartNeedsNoBox) {
+  const Packing packing = pack_charts({}, {}, {});
+  EXPECT_TRUE(packing.placements.empty());
+  EXPECT_EQ(packing.pe, 0);
+}
+
+TEST(PackCharts, OneChartGetsItsSmallestBox) {
+  Charts charts;
+  charts.add(shapes::transformed(shapes::rectangle(3, 1), 1, 0.7, {5, -2}));
+  EXPECT_NEAR(pack(charts, {.gap = 0.1}).pe, 1, 1e-12);
+  // In a square, the diagonal position: side (3 + 1) / sqrt 2.
+  EXPECT_NEAR(pack(charts, {.box_aspect = 1}).pe, 3.0 / 8, 1e-12);
+}
+
+TEST(PackCharts, SquaresTileABox) {
+  Charts charts;
+  for (int k = 0; k < 16; ++k) charts.add(shapes::transformed(shapes::rectangle(1, 1), 1, 0.3 * k, {0, 0}));
+  const double gap = 0.02;
+  const double expected = 16 / std::pow(4 + 3 * gap, 2);
+  EXPECT_GT(pack(charts, {.gap = gap, .box_aspect = 1}).pe, expected - 1e-5);
+  EXPECT_GT(pack(charts, {.gap = gap}).pe, expected - 1e-5);
+}
+
+TEST(PackCharts, NamedShapesWithEveryKindOfBox) {
+  const Charts charts = named_charts();
+  for (const double aspect : {0.0, 1.0, 2.0, 0.5}) {
+    EXPECT_GT(pack(charts, {.gap = 0.01, .box_aspect = aspect}).pe, 0.55) << "aspect " << aspect;
+  }
+}
+
+TEST(PackCharts, SmallChartsGoIntoHolesAndBays) {
+  Charts charts;
+  charts.add(shapes::ring(0.4, 0.5));
+  charts.add(shapes::disk(0.35));
+  const Packing packing = pack(charts, {.gap = 0.02});
+  EXPECT_NEAR(packing.box.area(), 1, 1e-2);
+}
+
+TEST(PackCharts, NestedShapesInterlock) {
+  Charts charts;
+  for (int k = 0; k < 4; ++k) charts.add(shapes::comb(3));
+  // Two combs of width 1 and height 0.6 whose teeth (0.2 wide, 0.45 long) do not interlock fill 0.7 of their box.
+  EXPECT_GT(pack(charts, {.gap = 1e-4}).pe, 0.71);
+}
+
+TEST(PackCharts, WithoutAGapChartsStillDoNotTouch) { pack(named_charts(), {.gap = 0}); }
+
+TEST(PackCharts, RandomChartsKeepTheGap) {
+  for (int seed = 1; seed <= 12; ++seed) {
+    const Charts charts = random_charts(2 + 2 * seed, 100 * seed);
+    const double gap = std::sqrt(charts.area) * Rng(seed).uniform(0, 0.02);
+    EXPECT_GT(pack(charts, {.gap = gap, .box_aspect = seed % 3 == 0 ? 1.0 : 0.0}).pe, 0.5) << "seed " << seed;
+  }
+}
+
+TEST(PackCharts, VeryUnevenSizes) {
+  Charts charts = random_charts(4, 7);
+  for (int k = 0; k < 40; ++k) charts.add(shapes::transformed(shapes::star(), 0.001 * (k + 1), k, {0, 0}));
+  charts.add(shapes::rectangle(4, 1e-4));
+  pack(charts, {.gap = 1e-3});
+}
+
+TEST(PackCharts, SameBitsForEveryNumberOfThreads) {
+  const Charts charts = random_charts(12, 3);
+  PackOptions options{.gap = 0.01, .seed = 5};
+  const Packing one = pack(charts, options);
+  options.threads = 3;
+  const Packing many = pack(charts, options);
+  for (std::size_t i = 0; i < charts.outlines.size(); ++i) {
+    EXPECT_EQ(one.placements[i].cosine, many.placements[i].cosine);
+    EXPECT_EQ(one.placements[i].sine, many.placements[i].sine);
+    EXPECT_EQ(one.placements[i].offset, many.placements[i].offset);
+  }
+}
+
+TEST(PackCharts, StopsAtTheTarget) {
+  const Charts charts = random_charts(12, 3);
+  const Packing enough = pack(charts, {.gap = 0.01, .target_pe = 0.5});
+  EXPECT_GE(enough.pe, 0.5);
+  EXPECT_GT(pack(charts, {.gap = 0.01}).pe, enough.pe);
+}
+
+TEST(PackCharts, ManyChartsInFewSeconds) {
+  Charts charts;
+  for (int k = 0; k < 2000; ++k) {
+    Rng rng(11, k);
+    charts.add(shapes::transformed(shapes::random_star_polygon(k, 12), rng.uniform(0.3, 1), 0, {0, 0}));
+  }
+  const Packing packing = pack_charts(charts.outlines, charts.areas, {.gap = 0.01, .threads = 2});
+  EXPECT_GT(packing.pe, 0.5);
+}
+
+TEST(PackCharts, TicksInOrderAndCancels) {
+  const Charts charts = random_charts(20, 9);
+  PackOptions options{.gap = 0.01, .threads = 2};
+  double last = 0;
+  int ticks = 0;
+  options.tick = [&](double fraction) {
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1);
+    last = fraction;
+    ++ticks;
+  };
+  pack(charts, options);
+  EXPECT_GT(ticks, 100);
+  for (const int cancelled_at : {1, 50, ticks - 1}) {
+    ticks = 0;
+    options.tick = [&](double) {
+      if (++ticks == cancelled_at) throw std::runtime_error("cancelled");
+    };
+    EXPECT_THROW(pack_charts(charts.outlines, charts.areas, options), std::runtime_error);
+    EXPECT_EQ(ticks, cancelled_at);
+  }
+}
+
+}  // namespace
+}  // namespace atlas_refine

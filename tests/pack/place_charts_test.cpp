@@ -1,0 +1,73 @@
+// Charts placed anew: rigid, apart by the gap of the box that came out, the same from every number of threads.
+#include "pack/place_charts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "atlas_refine/error.h"
+#include "charts.h"
+#include "shapes.h"
+
+namespace atlas_refine {
+namespace {
+
+using testing::box_sides;
+using testing::charts_of;
+
+std::vector<Chart> several() {
+  std::vector<Atlas> atlases;
+  for (const auto& [name, polygon] : shapes::named_polygons()) atlases.push_back(shapes::mesh(polygon, 0.1));
+  return charts_of(shapes::combine(atlases));
+}
+
+class PlaceCharts : public ::testing::TestWithParam<PlaceOptions> {};
+
+TEST_P(PlaceCharts, MovesRigidlyAndKeepsTheGap) {
+  const std::vector<Chart> charts = several();
+  Monitor monitor;
+  const std::vector<Chart> placed = place_charts(charts, GetParam(), monitor);
+  ASSERT_EQ(placed.size(), charts.size());
+  testing::expect_certified(placed);
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    const Vec2 turned = placed[c].uvs[1] - placed[c].uvs[0], before = charts[c].uvs[1] - charts[c].uvs[0];
+    const double cosine = turned.dot(before) / before.squaredNorm();
+    const double sine = (before.x() * turned.y() - before.y() * turned.x()) / before.squaredNorm();
+    EXPECT_NEAR(cosine * cosine + sine * sine, 1, 1e-9);
+    for (std::size_t v = 0; v < charts[c].uvs.size(); ++v) {
+      const Vec2 way = charts[c].uvs[v] - charts[c].uvs[0];
+      const Vec2 expected = placed[c].uvs[0] + Vec2(cosine * way.x() - sine * way.y(), sine * way.x() + cosine * way.y());
+      EXPECT_NEAR((placed[c].uvs[v] - expected).norm(), 0, 1e-9);
+    }
+  }
+  EXPECT_GE(gap_between_charts(placed), GetParam().gap.length(box_sides(placed, GetParam().box_aspect)));
+}
+
+INSTANTIATE_TEST_SUITE_P(GapsAndBoxes, PlaceCharts,
+                         ::testing::Values(PlaceOptions{}, PlaceOptions{.gap = {0.02}}, PlaceOptions{.box_aspect = 1},
+                                           PlaceOptions{.gap = {8.0 / 1024, Gap::Unit::LongSide}, .box_aspect = 3}));
+
+TEST(PlaceCharts, TheBitsDoNotDependOnTheThreads) {
+  const std::vector<Chart> charts = several();
+  Monitor monitor;
+  const auto one = place_charts(charts, {.threads = 1}, monitor), two = place_charts(charts, {.threads = 2}, monitor);
+  for (std::size_t c = 0; c < charts.size(); ++c) EXPECT_TRUE(testing::same_bits(one[c].uvs, two[c].uvs));
+}
+
+TEST(PlaceCharts, OneChartFindsItsSmallestBox) {
+  const Atlas atlas = shapes::mesh(shapes::transformed(shapes::rectangle(1, 0.4), 1, 0.7, {3, 5}), 0.1);
+  const std::vector<Chart> charts = charts_of(atlas);
+  Monitor monitor;
+  const std::vector<Chart> placed = place_charts(charts, {.target_pe = 0.99}, monitor);
+  EXPECT_LT(testing::packing_efficiency(charts), 0.7);
+  EXPECT_GT(testing::packing_efficiency(placed), 0.999);
+}
+
+TEST(PlaceCharts, CanBeCancelled) {
+  Monitor monitor;
+  monitor.cancel();
+  EXPECT_THROW(place_charts(several(), {}, monitor), RefineError);
+}
+
+}  // namespace
+}  // namespace atlas_refine

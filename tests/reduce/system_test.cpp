@@ -1,0 +1,205 @@
+// The engine's whole system by finite differences: every vertex and both box sides, walls, contacts, the gap that follows the
+// box.
+#include "reduce/system.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <ostream>
+
+#include "charts.h"
+#include "finite_differences.h"
+#include "shapes.h"
+#include "support/rng.h"
+
+namespace atlas_refine {
+namespace {
+
+using testing::charts_of;
+using testing::expect_close;
+using testing::numeric_gradient;
+using testing::numeric_hessian;
+
+constexpr double kStep = 1e-8;  // the barrier's range is about 0.005
+
+/// Two charts so close that the barrier is felt between them and inside the slot of the first; walls are felt from the start.
+std::vector<Chart> close_charts() {
+  const shapes::Polygon slotted{{{0, 0}, {1, 0}, {1, 1}, {0.5028, 1}, {0.5028, 0.5}, {0.4972, 0.5}, {0.4972, 1}, {0, 1}}, {}};
+  const shapes::Polygon neighbour = shapes::transformed(shapes::rectangle(0.6, 0.9), 1, 0, {1.0066, 0.05});
+  return charts_of(shapes::combine({shapes::mesh(slotted, 0.25), shapes::mesh(neighbour, 0.3)}));
+}
+
+struct Rule {
+  double aspect;
+  Gap gap;
+};
+void PrintTo(const Rule& rule, std::ostream* out) { *out << "aspect " << rule.aspect << ", gap " << rule.gap.value; }
+
+/// All unknowns in one array: vertices, then width and height, or the height alone where the aspect is fixed.
+class WholeSystem : public ::testing::TestWithParam<Rule> {
+ protected:
+  explicit WholeSystem(std::vector<Chart> charts = close_charts())
+      : charts_(std::move(charts)),
+        system_({.charts = charts_, .gap = GetParam().gap, .box_aspect = GetParam().aspect, .pe_target = 0.9}),
+        start_(system_.start()) {
+    Rng rng(8);
+    for (Vec2& x : start_.x) {
+      x.x() += rng.uniform(-1, 1) * 0.05 * system_.range();
+      x.y() += rng.uniform(-1, 1) * 0.05 * system_.range();
+    }
+    contacts_ = system_.contacts(start_, {});
+  }
+
+  int sides() const { return GetParam().aspect == 0 ? 2 : 1; }
+
+  Eigen::VectorXd stacked(const std::vector<Vec2>& nodes) const {
+    Eigen::VectorXd all(2 * system_.vertex_count() + sides());
+    for (int v = 0; v < system_.vertex_count(); ++v) all.segment<2>(2 * v) = nodes[v];
+    all.tail(sides()) = nodes[system_.vertex_count()].head(sides());
+    return all;
+  }
+  Eigen::VectorXd unknowns() const {
+    std::vector<Vec2> nodes = start_.x;
+    nodes.push_back(GetParam().aspect == 0 ? start_.box : Vec2(start_.box.y(), 0));
+    return stacked(nodes);
+  }
+  ReduceState state(const Eigen::VectorXd& all) const {
+    ReduceState result = start_;
+    for (int v = 0; v < system_.vertex_count(); ++v) result.x[v] = all.segment<2>(2 * v);
+    result.box = GetParam().aspect == 0 ? Vec2(all.tail<2>()) : Vec2(GetParam().aspect * all.tail<1>()[0], all.tail<1>()[0]);
+    return result;
+  }
+  Eigen::VectorXd energy_gradient(const Eigen::VectorXd& all) {
+    system_.assemble(state(all), contacts_, kStiffness);
+    return stacked(system_.energy_gradient);
+  }
+  Eigen::MatrixXd assembled_matrix() {
+    system_.assemble(start_, contacts_, kStiffness);
+    const int nodes = system_.vertex_count() + 1;
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(2 * nodes, 2 * nodes);
+    for (int i = 0; i < nodes; ++i) {
+      dense.block<2, 2>(2 * i, 2 * i) = system_.matrix.diagonal[i];
+      for (int j = i + 1; j < nodes; ++j) {
+        const int slot = system_.matrix.slot(i, j);
+        if (slot < 0) continue;
+        dense.block<2, 2>(2 * i, 2 * j) = system_.matrix.off_diagonal[slot];
+        dense.block<2, 2>(2 * j, 2 * i) = system_.matrix.off_diagonal[slot].transpose();
+      }
+    }
+    return dense;
+  }
+
+  static constexpr double kStiffness = 1e-3;
+  std::vector<Chart> charts_;
+  ReduceSystem system_;
+  ReduceState start_;
+  std::vector<Contact> contacts_;
+};
+
+TEST_P(WholeSystem, HasContactsBetweenAndWithinChartsAndAtTheWalls) {
+  int between = 0, within = 0, walls = 0;
+  const Boundary& b = system_.boundary();
+  for (const Contact& contact : contacts_) ++(b.chart[contact.pair.point] == b.chart[contact.pair.edge] ? within : between);
+  for (const int v : b.vertex)
+    walls += start_.x[v].minCoeff() < system_.range() || (start_.box - start_.x[v]).minCoeff() < system_.range();
+  EXPECT_GT(between, 3);
+  EXPECT_GT(within, 3);
+  EXPECT_GT(walls, 6);
+  EXPECT_GT(system_.barrier(start_, contacts_), 0);
+  EXPECT_TRUE(std::isfinite(system_.barrier(start_, contacts_)));
+}
+
+TEST_P(WholeSystem, GradientOfEnergyAndBarrier) {
+  const auto objective = [&](const Eigen::VectorXd& all) {
+    const ReduceState at = state(all);
+    return system_.distortion(at.x) + kStiffness * system_.barrier(at, contacts_);
+  };
+  expect_close(energy_gradient(unknowns()), numeric_gradient(objective, unknowns(), kStep), 2e-5);
+}
+
+TEST_P(WholeSystem, GradientOfTheBarrierAloneByTheBoxSides) {
+  const auto barrier = [&](const Eigen::VectorXd& all) { return system_.barrier(state(all), contacts_); };
+  const Eigen::VectorXd by_sides = numeric_gradient(barrier, unknowns(), kStep).tail(sides());
+  const Eigen::VectorXd assembled = energy_gradient(unknowns()).tail(sides()) / kStiffness;  // E does not depend on the box
+  expect_close(assembled, by_sides, 1e-5);
+}
+
+TEST_P(WholeSystem, GradientOfLogPe) {
+  const auto log_pe = [&](const Eigen::VectorXd& all) { return std::log(system_.box_pe(state(all))); };
+  system_.assemble(start_, contacts_, kStiffness);
+  expect_close(stacked(system_.pe_gradient), numeric_gradient(log_pe, unknowns(), 1e-6), 1e-8);
+}
+
+TEST_P(WholeSystem, ProjectedMatrixIsPositiveSemidefinite) {
+  const Eigen::VectorXd spectrum = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(assembled_matrix()).eigenvalues();
+  EXPECT_GE(spectrum.minCoeff(), -1e-10 * spectrum.maxCoeff());
+  system_.damp(1e-6);
+  EXPECT_TRUE(system_.matrix.factor());
+}
+
+TEST_P(WholeSystem, StepsKeepTheAspectExactly) {
+  if (GetParam().aspect == 0) return;
+  EXPECT_DOUBLE_EQ(start_.box.x(), GetParam().aspect * start_.box.y());
+  std::vector<Vec2> step(system_.vertex_count(), Vec2::Zero());
+  step.emplace_back(-0.123, 0.77);  // the second value belongs to the empty equation
+  const ReduceState moved = system_.moved(start_, step, 0.5);
+  EXPECT_DOUBLE_EQ(moved.box.y(), start_.box.y() - 0.0615);
+  EXPECT_NEAR(moved.box.x(), GetParam().aspect * moved.box.y(), 1e-15);
+}
+
+const auto kRules = ::testing::Values(Rule{0, {}}, Rule{0, {0.0025, Gap::Unit::LongSide}}, Rule{1, {}}, Rule{2.5, {0.002}},
+                                      Rule{2.5, {0.0025, Gap::Unit::LongSide}}, Rule{0.4, {0.001, Gap::Unit::LongSide}});
+INSTANTIATE_TEST_SUITE_P(FreeAndFixedAspect, WholeSystem, kRules);
+
+/// Without contacts nothing is projected near an isometry: the matrix is the Hessian, walls and their coupling to the box
+/// included.
+class SystemOfOneChart : public WholeSystem {
+ protected:
+  SystemOfOneChart() : WholeSystem(charts_of(shapes::mesh(shapes::rectangle(1, 0.7), 0.2, 0.3))) {
+    for (const Contact& contact : contacts_) EXPECT_EQ(contact.floor_fraction, 0);
+    contacts_.clear();
+  }
+};
+
+TEST_P(SystemOfOneChart, HessianIsExact) {
+  const Eigen::MatrixXd numeric =
+      numeric_hessian([&](const Eigen::VectorXd& all) { return energy_gradient(all); }, unknowns(), kStep);
+  const Eigen::MatrixXd dense = assembled_matrix();
+  const int count = static_cast<int>(unknowns().size());
+  expect_close(dense.topLeftCorner(count, count), numeric, 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(FreeAndFixedAspect, SystemOfOneChart, ::testing::Values(Rule{0, {}}, Rule{1, {}}, Rule{2.5, {}}));
+
+TEST(ReduceSystem, FreeStepsNeitherFlipNorCross) {
+  const std::vector<Chart> charts = close_charts();
+  const ReduceSystem system({.charts = charts, .gap = {}, .pe_target = 0.9});
+  const ReduceState start = system.start();
+  Rng rng(21);
+  int limited = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<Vec2> step(system.vertex_count() + 1, Vec2::Zero());
+    for (int v = 0; v < system.vertex_count(); ++v) step[v] = {rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2)};
+    const double fraction = system.free_step(start, step);
+    EXPECT_GT(fraction, 0);
+    limited += fraction < 1;
+    testing::expect_certified(testing::with_uvs(charts, system.chart_uvs(system.moved(start, step, fraction))));
+  }
+  EXPECT_GT(limited, 40);
+}
+
+TEST(ReduceSystem, TheStartComesBackInItsOwnUnits) {
+  const std::vector<Chart> charts = close_charts();
+  const ReduceSystem system({.charts = charts, .gap = {}, .pe_target = 0.9});
+  const auto uvs = system.chart_uvs(system.start());
+  const Vec2 shift = uvs[0][0] - charts[0].uvs[0];
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    for (std::size_t v = 0; v < uvs[c].size(); ++v) EXPECT_NEAR((uvs[c][v] - shift - charts[c].uvs[v]).norm(), 0, 1e-12);
+  }
+  EXPECT_NEAR(system.tight_pe(system.start()), testing::packing_efficiency(charts), 1e-12);
+  EXPECT_NEAR(system.distortion(system.start().x), testing::energy_as_is(charts), 1e-12);
+}
+
+}  // namespace
+}  // namespace atlas_refine

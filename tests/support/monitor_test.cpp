@@ -1,0 +1,133 @@
+// Progress, cancellation and exceptions across the worker thread.
+#include "support/monitor.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "atlas_refine/error.h"
+
+namespace atlas_refine {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void wait_ms(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
+
+/// Two stages of reports that also go back; about 0.6 s.
+void work_of_two_stages(Monitor& monitor) {
+  monitor.begin_stage("first", 0, 0.4);
+  for (const double fraction : {0.0, 0.5, 0.2, 1.5, -1.0}) {
+    monitor.report(fraction, 0.7);
+    wait_ms(60);
+  }
+  monitor.begin_stage("second", 0.4, 1);
+  for (const double fraction : {0.0, 0.3, 0.1, 0.9, 1.0}) {
+    monitor.report(fraction, 0.8);
+    wait_ms(60);
+  }
+}
+
+TEST(Monitor, ProgressNeverDecreases) {
+  std::vector<Progress> seen;
+  run_monitored(
+      [&](const Progress& progress) {
+        seen.push_back(progress);
+        return true;
+      },
+      work_of_two_stages);
+  ASSERT_GT(seen.size(), 4u);
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    EXPECT_GE(seen[k].fraction, k == 0 ? 0 : seen[k - 1].fraction);
+    EXPECT_LE(seen[k].fraction, 1);
+  }
+  EXPECT_EQ(seen.back().stage, "second");
+  EXPECT_EQ(seen.back().pe, 0.8);
+}
+
+TEST(Monitor, StagesCoverTheirPart) {
+  Monitor monitor;
+  monitor.begin_stage("squeeze", 0.25, 0.75);
+  EXPECT_EQ(monitor.snapshot().fraction, 0.25);
+  monitor.report(0.5, 0.6);
+  EXPECT_EQ(monitor.snapshot().fraction, 0.5);
+  monitor.report(0.1, 0.5);
+  EXPECT_EQ(monitor.snapshot().fraction, 0.5);
+  EXPECT_EQ(monitor.snapshot().pe, 0.5);
+}
+
+TEST(Monitor, CancelsWithinAFifthOfASecond) {
+  double quickest = 1e9;
+  for (int attempt = 0; attempt < 5 && quickest > 0.2; ++attempt) {  // another process may hold the machine for a moment
+    Clock::time_point asked;
+    const auto run = [&] {
+      run_monitored(
+          [&](const Progress&) {
+            asked = Clock::now();
+            return false;
+          },
+          [](Monitor& monitor) {
+            for (int k = 0; k < 1000; ++k, wait_ms(10)) monitor.check();
+            FAIL() << "nobody cancelled";
+          });
+    };
+    try {
+      run();
+      FAIL() << "must throw";
+    } catch (const RefineError& error) {
+      EXPECT_EQ(error.code(), ErrorCode::Cancelled);
+    }
+    quickest = std::min(quickest, std::chrono::duration<double>(Clock::now() - asked).count());
+  }
+  EXPECT_LE(quickest, 0.2);
+}
+
+TEST(Monitor, EveryReportThrowsOnceCancelled) {
+  Monitor monitor;
+  monitor.begin_stage("pack", 0, 1);
+  monitor.cancel();
+  EXPECT_THROW(monitor.report(0.5), RefineError);
+  EXPECT_THROW(monitor.check(), RefineError);
+  EXPECT_THROW(monitor.begin_stage("squeeze", 0, 1), RefineError);
+}
+
+TEST(Monitor, ExceptionsOfEitherSideComeOut) {
+  const auto go_on = [](const Progress&) { return true; };
+  EXPECT_THROW(run_monitored(go_on, [](Monitor&) { throw std::out_of_range("work"); }), std::out_of_range);
+  EXPECT_THROW(run_monitored({}, [](Monitor&) { throw std::out_of_range("work"); }), std::out_of_range);
+  bool ended = false;
+  const auto fail = [](const Progress&) -> bool { throw std::domain_error("callback"); };
+  const auto work = [&](Monitor& monitor) {
+    try {
+      for (int k = 0; k < 1000; ++k, wait_ms(10)) monitor.report(0.5);
+    } catch (...) {
+      ended = true;
+      throw;
+    }
+  };
+  EXPECT_THROW(run_monitored(fail, work), std::domain_error);
+  EXPECT_TRUE(ended);
+}
+
+TEST(Monitor, WithoutACallbackTheCallerWorks) {
+  std::thread::id worker;
+  run_monitored({}, [&](Monitor&) { worker = std::this_thread::get_id(); });
+  EXPECT_EQ(worker, std::this_thread::get_id());
+}
+
+TEST(Monitor, TheCallbackRunsInTheCallersThread) {
+  std::thread::id called = {};
+  run_monitored(
+      [&](const Progress&) {
+        called = std::this_thread::get_id();
+        return true;
+      },
+      [](Monitor&) { wait_ms(200); });
+  EXPECT_EQ(called, std::this_thread::get_id());
+}
+
+}  // namespace
+}  // namespace atlas_refine

@@ -1,0 +1,104 @@
+"""The include directions of native/: support <- geometry <- solve <- measure <- stages <- report, refine <- bindings, cli."""
+
+import pathlib
+import re
+
+import pytest
+
+NATIVE = pathlib.Path(__file__).resolve().parents[1] / "native"
+SOURCE = NATIVE / "src"
+
+# Each level may include itself, what stands before it, and the public headers.
+LEVELS = [["support"], ["geometry"], ["solve"], ["measure"], ["input", "pack", "reduce"], ["report"], ["refine.cpp"]]
+# Libraries that live in one place and nowhere else.
+HOMES = {
+    "OpenMesh": ["src/geometry/"],
+    "CGAL": ["src/geometry/"],
+    "CLI": ["cli/command_line.cpp"],
+    "nlohmann": ["cli/report.cpp"],
+    "pybind11": ["bindings/"],
+}
+INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
+
+
+def files(folder):
+    return sorted(path for path in folder.rglob("*") if path.suffix in (".h", ".cpp"))
+
+
+def includes(path):
+    """(quoted, name) of everything that a file includes."""
+    return [(mark == '"', name) for mark, name in INCLUDE.findall(path.read_text(encoding="utf-8"))]
+
+
+def part(name):
+    """The folder under src, or the file itself where it lies at the top."""
+    return name.split("/")[0]
+
+
+def level(name):
+    return next((k for k, parts in enumerate(LEVELS) if name in parts), None)
+
+
+def forbidden(includer, included):
+    """Why one part may not include another; nothing where it may. Parts of one level, the stages, never include each other."""
+    if included in ("atlas_refine", includer):
+        return None
+    if level(included) is None:
+        return f"{included} has no place in the order"
+    return None if level(included) < level(includer) else f"{includer} may not include {included}"
+
+
+def test_every_source_has_its_place():
+    assert {part(str(path.relative_to(SOURCE))) for path in files(SOURCE)} <= {name for names in LEVELS for name in names}
+
+
+@pytest.mark.parametrize("path", files(SOURCE), ids=lambda path: str(path.relative_to(SOURCE)))
+def test_sources_include_downwards_only(path):
+    includer = part(str(path.relative_to(SOURCE)))
+    wrong = [(name, forbidden(includer, part(name))) for quoted, name in includes(path) if quoted]
+    assert [entry for entry in wrong if entry[1]] == []
+
+
+@pytest.mark.parametrize("folder", ["cli", "bindings"])
+def test_programs_see_only_the_public_headers(folder):
+    own = {path.name for path in files(NATIVE / folder)}
+    for path in files(NATIVE / folder):
+        foreign = [name for quoted, name in includes(path) if quoted and name not in own]
+        assert [name for name in foreign if not name.startswith("atlas_refine/")] == [], path
+
+
+def test_public_headers_include_only_each_other_eigen_and_the_standard_library():
+    for path in files(NATIVE / "include"):
+        for quoted, name in includes(path):
+            assert name.startswith("atlas_refine/") if quoted else name.startswith("Eigen/") or "/" not in name, (path, name)
+
+
+@pytest.mark.parametrize("library", HOMES)
+def test_libraries_live_in_one_place(library):
+    users = [str(path.relative_to(NATIVE)) for path in files(NATIVE) if any(n.startswith(f"{library}/") for _, n in includes(path))]
+    assert users
+    assert [user for user in users if not user.startswith(tuple(HOMES[library]))] == []
+
+
+def test_includes_make_no_circle():
+    graph = {str(p.relative_to(SOURCE)): [n for quoted, n in includes(p) if quoted and (SOURCE / n).exists()] for p in files(SOURCE)}
+    done = set()
+
+    def visit(name, above):
+        assert name not in above, " -> ".join([*above, name])
+        if name not in done:
+            for included in graph[name]:
+                visit(included, [*above, name])
+            done.add(name)
+
+    for name in graph:
+        visit(name, [])
+
+
+def test_the_rule_itself():
+    assert forbidden("support", "geometry")
+    assert forbidden("pack", "reduce")
+    assert forbidden("reduce", "report")
+    assert forbidden("report", "elsewhere")
+    assert forbidden("pack", "measure") is None
+    assert forbidden("measure", "atlas_refine") is None
