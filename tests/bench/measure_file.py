@@ -50,7 +50,8 @@ class Row:
     stretch_99: float = math.nan
     stretch_max: float = math.nan
     gap: float = math.nan  # guaranteed between charts, fraction of the box diagonal
-    gap_within: float = math.nan  # measured
+    gap_within_in: float = math.nan  # measured between borders of one chart, in the input
+    gap_within: float = math.nan  # and in the result
     price: float = math.nan
     iterations: int = 0
     seconds: float = math.nan  # inside refine()
@@ -64,6 +65,11 @@ class Row:
     @property
     def extra(self):
         return self.e_d - self.optimum
+
+    @property
+    def nearer_within(self):
+        """Borders of one chart ended nearer than the gap, and not because they were nearer in a usable input."""
+        return self.gap_within < 0.999 * self.gap and (self.re_embedded > 0 or self.gap_within < 0.999 * self.gap_within_in)
 
     @property
     def time(self):
@@ -122,7 +128,8 @@ def fill_from_report(row, report):
     row.pe_in, row.pe = number(before["pe_fixed_aspect"]), number(after["pe_fixed_aspect"])
     row.e_d_in, row.e_d = number(before["distortion"]), number(after["distortion"])
     row.stretch_99, row.stretch_max = number(after["stretch_99"]), number(after["stretch_max"])
-    row.gap, row.gap_within = report["gap"]["value"], number(after["gap_within"])
+    row.gap = report["gap"]["value"]
+    row.gap_within_in, row.gap_within = number(before["gap_within"]), number(after["gap_within"])
     row.price, row.iterations = number(report["price"]), report["iterations"]
     row.seconds = report["seconds"]["refine"]
 

@@ -126,7 +126,10 @@ def extreme_lines(rows, count=5):
     done = [row for row in rows if row.ok]
     slowest = sorted((r for r in done if math.isfinite(r.time)), key=lambda r: -r.time)[:count]
     dearest = sorted((r for r in done if math.isfinite(r.extra)), key=lambda r: -r.extra)[:count]
+    nearer = [r for r in rows if r.nearer_within]
     return [
+        f"borders of one chart nearer than the gap and than in the input, or re-embedded so: {len(nearer)}"
+        + "".join(f"\n  {r.folder}/{r.file} at {r.goal}: {text(100 * r.gap_within, '.3f')} %" for r in nearer),
         "slowest: " + ", ".join(f"{r.folder}/{r.file} at {r.goal} {r.time:.1f} s" for r in slowest),
         "largest extra E_d: " + ", ".join(f"{r.folder}/{r.file} at {r.goal} {r.extra:.4f}" for r in dearest),
     ]
