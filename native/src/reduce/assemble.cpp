@@ -11,7 +11,7 @@ namespace atlas_refine {
 namespace {
 
 // The pattern holds pairs up to this multiple of the reach, so that it changes seldom.
-constexpr double kPatternReach = 3;
+constexpr double kPatternReach = 1.7;
 
 }  // namespace
 

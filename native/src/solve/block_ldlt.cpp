@@ -8,6 +8,26 @@
 
 namespace atlas_refine {
 
+namespace {
+
+using Lanes = double __attribute__((vector_size(32), aligned(16), may_alias));
+
+/// work[rows[p]] -= blocks[p] * y: nine tenths of a factorisation. Wider registers where the machine has them; without fused
+/// multiply-add the bits are the same.
+__attribute__((target_clones("avx2", "default"))) void subtract_products(const int* rows, const Mat2* blocks, int count,
+                                                                         const Mat2& y, Mat2* work) {
+  const Lanes upper = {y(0, 0), y(0, 0), y(0, 1), y(0, 1)};
+  const Lanes lower = {y(1, 0), y(1, 0), y(1, 1), y(1, 1)};
+  for (int p = 0; p < count; ++p) {
+    const double* l = blocks[p].data();
+    const Lanes left = {l[0], l[1], l[0], l[1]};
+    const Lanes right = {l[2], l[3], l[2], l[3]};
+    *reinterpret_cast<Lanes*>(work[rows[p]].data()) -= left * upper + right * lower;
+  }
+}
+
+}  // namespace
+
 void BlockLdlt::analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node) {
   // Bucket by the smaller node, then sort and thin out each short row.
   std::vector<int> start(node_count + 1, 0);
@@ -144,7 +164,8 @@ bool BlockLdlt::factor() {
       const Mat2 y = work_[i];
       work_[i].setZero();
       const int end = factor_fill_[i];
-      for (int p = factor_start_[i]; p < end; ++p) work_[factor_rows_[p]].noalias() -= factor_values_[p].lazyProduct(y);
+      const int begin = factor_start_[i];
+      subtract_products(factor_rows_.data() + begin, factor_values_.data() + begin, end - begin, y, work_.data());
       const Mat2 l = y.transpose().lazyProduct(inverse_pivots_[i]);
       pivot.noalias() -= l.lazyProduct(y);
       factor_rows_[end] = k;
