@@ -28,7 +28,7 @@ TEST(RandomAtlases, ReachTheBound) {
   for (int seed = 0; seed < 4; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::vector<Atlas> charts;
-    for (int k = 0; k < 5; ++k) {
+    for (int k = 0; k < 3; ++k) {
       const shapes::Polygon polygon =
           k % 2 == 0 ? shapes::random_polygon(100 * seed + k) : shapes::random_star_polygon(100 * seed + k);
       charts.push_back(shapes::mesh(shapes::transformed(polygon, 0.5 + 0.2 * k, k, {3.0 * k, 0}), 0.15));

@@ -53,12 +53,11 @@ INSTANTIATE_TEST_SUITE_P(CSUSpiralCombStarRing, NamedShapes,
 TEST(Refine, SeveralChartsReachEveryBound) {
   const Atlas atlas = four_charts();
   double last = 0;
-  for (const double bound : {0.75, 0.85, 0.92}) {
+  for (const double bound : {0.8, 0.92}) {
     const RefineResult result = refine_soundly(atlas, {.pe_bound = bound});
     EXPECT_GE(result.after.distortion, last - 2e-3);  // more efficiency is not cheaper
     last = result.after.distortion;
   }
-  refine_soundly(atlas, {.pe_bound = 0.8, .box_aspect = 1});
   refine_soundly(atlas, {.pe_bound = 0.8, .box_aspect = 2.5});
 }
 
@@ -182,7 +181,7 @@ TEST(Refine, RefusesFlipsAndFacesWithoutAreaByChartAndFace) {
 
 TEST(Refine, AHardGapIsKept) {
   const Atlas atlas = four_charts();
-  for (const Gap gap : {Gap{0.0}, Gap{0.01}, Gap{16.0 / 1024, Gap::Unit::LongSide}}) {
+  for (const Gap gap : {Gap{0.0}, Gap{0.01}}) {
     const RefineResult result = refine_soundly(atlas, {.pe_bound = 0.8, .gap = gap});
     EXPECT_EQ(result.gap.value, gap.value);
     EXPECT_EQ(result.gap.unit, gap.unit);
@@ -203,7 +202,7 @@ TEST(Refine, TheAutomaticGapShrinksWhereManyChartsNeedIt) {
 }
 
 TEST(Refine, ABoundThatAHardGapForbidsNamesTheBestPe) {
-  const Atlas atlas = shapes::squares(25, 0.3);
+  const Atlas atlas = shapes::squares(9, 0.3);
   RefineOptions options{.pe_bound = 0.95, .gap = Gap{0.03}};
   const RefineError error = testing::refusal(atlas, options);
   EXPECT_EQ(error.code(), ErrorCode::BoundNotReached);

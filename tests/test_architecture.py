@@ -75,13 +75,17 @@ def test_public_headers_include_only_each_other_eigen_and_the_standard_library()
 
 @pytest.mark.parametrize("library", HOMES)
 def test_libraries_live_in_one_place(library):
-    users = [str(path.relative_to(NATIVE)) for path in files(NATIVE) if any(n.startswith(f"{library}/") for _, n in includes(path))]
+    users = [
+        str(path.relative_to(NATIVE)) for path in files(NATIVE) if any(n.startswith(f"{library}/") for _, n in includes(path))
+    ]
     assert users
     assert [user for user in users if not user.startswith(tuple(HOMES[library]))] == []
 
 
 def test_includes_make_no_circle():
-    graph = {str(p.relative_to(SOURCE)): [n for quoted, n in includes(p) if quoted and (SOURCE / n).exists()] for p in files(SOURCE)}
+    graph = {
+        str(p.relative_to(SOURCE)): [n for quoted, n in includes(p) if quoted and (SOURCE / n).exists()] for p in files(SOURCE)
+    }
     done = set()
 
     def visit(name, above):

@@ -44,8 +44,10 @@ TEST_P(PlaceCharts, MovesRigidlyAndKeepsTheGap) {
 }
 
 INSTANTIATE_TEST_SUITE_P(GapsAndBoxes, PlaceCharts,
-                         ::testing::Values(PlaceOptions{}, PlaceOptions{.gap = {0.02}}, PlaceOptions{.box_aspect = 1},
-                                           PlaceOptions{.gap = {8.0 / 1024, Gap::Unit::LongSide}, .box_aspect = 3}));
+                         ::testing::Values(PlaceOptions{.target_pe = 0.5}, PlaceOptions{.gap = {0.02}, .target_pe = 0.5},
+                                           PlaceOptions{.box_aspect = 1, .target_pe = 0.5},
+                                           PlaceOptions{
+                                               .gap = {8.0 / 1024, Gap::Unit::LongSide}, .box_aspect = 3, .target_pe = 0.45}));
 
 TEST(PlaceCharts, TheBitsDoNotDependOnTheThreads) {
   const std::vector<Chart> charts = several();
