@@ -1,4 +1,4 @@
-"""Runs inside Blender for the demo: an artist's seams, Blender's own unwrap, the operator, measures and drawings."""
+"""Runs inside Blender for the demo: an artist's seams, Blender's own unwrap, the operator, and measures."""
 
 import pathlib
 import sys
@@ -10,8 +10,6 @@ import bpy
 import numpy as np
 
 PE_BOUND = 0.80
-#: Heat map of stretch max(s1, 1 / s2): from isometric to twice as long or half as wide.
-COLOURS = np.array([[0.93, 0.95, 0.97], [0.98, 0.83, 0.45], [0.84, 0.24, 0.16]])
 
 
 def make_suzanne():
@@ -60,54 +58,9 @@ def arrays(mesh):
     return positions, offsets, corners, uvs
 
 
-def corner_triangles(offsets):
-    """Corner indices of each face's fan, and the face of each triangle."""
-    sizes = np.diff(offsets)
-    faces = np.repeat(np.arange(len(sizes)), sizes - 2)
-    steps = np.concatenate([np.arange(1, size - 1) for size in sizes])
-    first = offsets[faces]
-    return np.column_stack([first, first + steps, first + steps + 1]), faces
-
-
-def face_stretch(positions, offsets, corners, uvs):
-    """Largest max(s1, 1 / s2) of each face's triangles, under the scale that keeps the whole area."""
-    triangles, faces = corner_triangles(offsets)
-    p, q = positions[corners[triangles]], uvs[triangles]
-    a, b = p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]
-    length = np.linalg.norm(a, axis=1)
-    x = np.einsum("ij,ij->i", a, b) / length
-    y = np.linalg.norm(np.cross(a, b), axis=1) / length
-    u, v = q[:, 1] - q[:, 0], q[:, 2] - q[:, 0]
-    jacobian = np.stack([u / length[:, None], (v - u * (x / length)[:, None]) / y[:, None]], axis=2)
-    surface, covered = 0.5 * np.sum(length * y), 0.5 * np.sum(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
-    singular = np.linalg.svd(jacobian * np.sqrt(surface / covered), compute_uv=False)
-    stretch = np.zeros(len(offsets) - 1)
-    np.maximum.at(stretch, faces, np.maximum(singular[:, 0], 1 / singular[:, 1]))
-    return stretch
-
-
-def draw(path, atlas, caption):
-    """The UV layout in its box, each face in the colour of its stretch."""
-    offsets, uvs = atlas[1], atlas[3]
-    heat = np.clip(face_stretch(*atlas) - 1, 0, 1) * 2
-    low = np.minimum(heat.astype(int), 1)
-    colours = COLOURS[low] + (COLOURS[low + 1] - COLOURS[low]) * (heat - low)[:, None]
-    lower = uvs.min(axis=0)
-    size = uvs.max(axis=0) - lower
-    scale = 1000 / size.max()
-    width, height = size * scale
-    points = (uvs - lower) * scale * [1, -1] + [0, height]
-    lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-20 -60 {width + 40:.1f} {height + 80:.1f}" font-family="sans-serif">',
-        f'<rect x="-20" y="-60" width="{width + 40:.1f}" height="{height + 80:.1f}" fill="white"/>',
-        f'<text x="0" y="-22" font-size="26">{caption}</text>',
-        f'<rect width="{width:.1f}" height="{height:.1f}" fill="#e4e4e4" stroke="#555" stroke-width="1.5"/>',
-    ]
-    for begin, end, colour in zip(offsets[:-1], offsets[1:], colours, strict=True):
-        outline = " ".join(f"{x:.2f},{y:.2f}" for x, y in points[begin:end])
-        red, green, blue = (255 * colour).astype(int)
-        lines.append(f'<polygon points="{outline}" fill="rgb({red},{green},{blue})" stroke="#345" stroke-width="0.4"/>')
-    path.write_text("\n".join([*lines, "</svg>\n"]))
+def export(path):
+    """The active object as OBJ, for pictures by the command line program."""
+    bpy.ops.wm.obj_export(filepath=str(path), export_selected_objects=True, export_materials=False)
 
 
 def table(mesh, before, after, seconds):
@@ -129,7 +82,7 @@ def main(out):
     addon_utils.enable("atlas_refine_addon")
     atlas = arrays(suzanne.data)
     before = atlas_refine.measure(*atlas)
-    draw(out / "before.svg", atlas, f"Blender's unwrap: PE {before.pe:.3f}, E_d {before.distortion:.4f}")
+    export(out / "before.obj")
     began = time.monotonic()
     bpy.ops.uv.atlas_refine(pe_bound=PE_BOUND)
     seconds = time.monotonic() - began
@@ -138,7 +91,7 @@ def main(out):
     validity = atlas_refine.validate(*atlas)
     assert validity.valid, validity.problem
     assert after.pe >= PE_BOUND
-    draw(out / "after.svg", atlas, f"Atlas Refine: PE {after.pe:.3f}, E_d {after.distortion:.4f}, no seam added")
+    export(out / "after.obj")
     (out / "table.txt").write_text(table(suzanne.data, before, after, seconds))
     bpy.ops.wm.save_as_mainfile(filepath=str(out / "suzanne.blend"))
 
