@@ -13,7 +13,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "../native/src/support/rng.h"
+#include "support/rng.h"
 
 namespace atlas_refine::shapes {
 namespace {

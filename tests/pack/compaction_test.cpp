@@ -30,14 +30,13 @@ TEST(Compaction, ATurnedChartTurnsBack) {
 }
 
 TEST(Compaction, ChartsInterlock) {
-  const auto comb = testing::outline_of(shapes::comb(3));
-  // Teeth up, and teeth down into the spaces, not yet all the way.
-  const std::vector<Placement> start{{1, 0, {0, 0}}, {-1, 0, {1.2, 1.0}}};
-  ASSERT_GT(testing::smallest_distance({comb, comb}, start), 0);
-  const double before = placed_box({comb, comb}, start).area();
-  const auto result = compact({comb, comb}, start, options_for(1e-3));
-  EXPECT_LT(placed_box({comb, comb}, result).area(), before);
-  EXPECT_GE(testing::smallest_distance({comb, comb}, result), 1e-3);
+  const auto u = testing::outline_of(shapes::u_shape());
+  // One open to the top, one turned over with a limb part of the way in the bay of the other.
+  const std::vector<Placement> start{{1, 0, {0, 0}}, {-1, 0, {1.15, 1.5}}};
+  ASSERT_GT(testing::smallest_distance({u, u}, start), 1e-3);
+  const auto result = compact({u, u}, start, options_for(1e-3));
+  EXPECT_LT(placed_box({u, u}, result).area(), 1.2 * 1.2);
+  EXPECT_GE(testing::smallest_distance({u, u}, result), 1e-3);
 }
 
 TEST(Compaction, AFixedAspectCountsTheWholeBox) {

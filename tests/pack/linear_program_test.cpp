@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+#include <algorithm>
+
 #include "support/rng.h"
 
 namespace atlas_refine {

@@ -13,6 +13,7 @@ Layout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& ru
   layout.turns.assign(charts.size(), 0);
   layout.places.assign(charts.size(), {});
   Occupancy strip(rule.strip_width);
+  Rng rng = rule.rng;
   int placed = 0;
   for (const int chart : rule.order) {
     watch.poll(static_cast<double>(placed++) / charts.size());
@@ -20,7 +21,7 @@ Layout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& ru
     int best_x = 0;
     const auto& rasters = charts[chart].rasters;
     for (int turn = 0; turn < static_cast<int>(rasters.size()); ++turn) {
-      const double extra = rule.height_weight * rasters[turn].height;
+      const double extra = (rule.height_weight + rule.turn_noise * rng.uniform()) * rasters[turn].height;
       const double room = std::min(best_cost - extra, static_cast<double>(std::numeric_limits<int>::max()));
       if (room < 0) continue;
       Cell place;

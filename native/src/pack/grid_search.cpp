@@ -76,6 +76,8 @@ GreedyRule random_rule(const Grid& grid, double aspect, Rng rng) {
   const double width = aspect > 0 ? rng.uniform(0.95, 1.1) * std::sqrt(aspect) : rng.uniform(0.7, 1.4);
   rule.strip_width = std::max(widest, static_cast<int>(grid.cells_per_side * width));
   rule.height_weight = rng.uniform(0.3, 1.2);
+  rule.turn_noise = rng.uniform(0, 0.2);
+  rule.rng = rng;
   return rule;
 }
 
@@ -105,7 +107,7 @@ class Search {
 
   std::vector<Placement> run() {
     const int n = static_cast<int>(outlines_.size());
-    start_greedily(n > kManyCharts ? std::clamp(2000 / n, 1, 8) : 64);
+    start_greedily(n > kManyCharts ? std::clamp(2000 / n, 1, 8) : std::clamp(4000 / n, 64, 400));
     if (least_area_ > enough_ && n <= kTooManyToCompact) compact_best(1, 0.3, 0.4);
     if (least_area_ > enough_ && n <= kManyCharts) {
       shrink_best();
@@ -138,6 +140,7 @@ class Search {
     watch_.begin_part(0.05, 0.3);
     parallel_ranges(starts, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
+        watch_.begin_task(k - begin, end - begin);
         layouts_[k] = place_greedily(grid_.charts, random_rule(grid_, options_.box_aspect, Rng(options_.seed, 0, k)), watch_);
       }
     });
@@ -149,6 +152,7 @@ class Search {
     watch_.begin_part(0.4, 0.9);
     parallel_ranges(kFinalists, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
+        watch_.begin_task(k - begin, end - begin);
         const BoxGoal goal{options_.box_aspect, enough_ / (grid_.cell * grid_.cell)};
         shrunk[k] = shrink_box(grid_.charts, layouts_[k], goal, options_.seed + k, watch_);
       }
@@ -162,6 +166,7 @@ class Search {
     watch_.begin_part(from, to);
     parallel_ranges(count, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
+        watch_.begin_task(k - begin, end - begin);
         const CompactionOptions options{options_.gap, options_.box_aspect, 2 * grid_.cell, [&] { watch_.poll(0); }};
         compacted[k] = compact(outlines_, placements_of(grid_, layouts_[k]), options);
       }

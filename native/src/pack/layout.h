@@ -6,6 +6,7 @@
 #include "measure/distortion.h"
 #include "pack/raster.h"
 #include "pack/watch.h"
+#include "support/rng.h"
 
 namespace atlas_refine {
 
@@ -33,6 +34,8 @@ struct GreedyRule {
   std::vector<int> order;    ///< charts in the order they are placed
   int strip_width = 0;       ///< cells; no chart may be wider in all its turns
   double height_weight = 1;  ///< a chart goes where y + height_weight * (its height) is smallest
+  double turn_noise = 0;     ///< the weight grows by up to this, drawn anew for every turn of every chart
+  Rng rng{0};
 };
 
 /// Places charts one after another, each in the turn and at the place that the

@@ -35,8 +35,8 @@ struct PackOptions {
   double target_pe = 1;   ///< stop searching once sum(area) / box area reaches this
   std::uint64_t seed = 1;
   int threads = 1;
-  std::function<void(double)> tick;  ///< called from the calling thread with
-                                     ///< progress in [0, 1]; may throw to cancel
+  std::function<void(double)> tick = {};  ///< called from the calling thread with
+                                          ///< progress in [0, 1]; may throw to cancel
 };
 
 struct Packing {

@@ -2,6 +2,7 @@
 // calling thread only, the others follow it.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <thread>
@@ -14,11 +15,17 @@ class Watch {
  public:
   explicit Watch(std::function<void(double)> tick) : tick_(std::move(tick)), caller_(std::this_thread::get_id()) {}
 
-  /// The part [from, to] of the whole that the following work of the calling
-  /// thread covers.
-  void begin_part(double from, double to) { from_ = from, to_ = to; }
+  /// The part [from, to] of the whole that follows.
+  void begin_part(double from, double to) { part_from_ = from_ = from, part_to_ = to_ = to; }
 
-  /// `fraction` of the present part. Cheap; call it at least every 0.05 s.
+  /// The task-th of `tasks` equal tasks of the present part; counts for the calling thread's tasks only.
+  void begin_task(int task, int tasks) {
+    if (std::this_thread::get_id() != caller_) return;
+    from_ = part_from_ + (part_to_ - part_from_) * task / tasks;
+    to_ = part_from_ + (part_to_ - part_from_) * (task + 1) / tasks;
+  }
+
+  /// `fraction` of the present task. Cheap; call it at least every 0.05 s.
   void poll(double fraction) {
     if (std::this_thread::get_id() != caller_) {
       if (cancelled_) throw Cancelled{};
@@ -26,7 +33,7 @@ class Watch {
     }
     if (!tick_) return;
     try {
-      tick_(from_ + (to_ - from_) * fraction);
+      tick_(from_ + (to_ - from_) * std::min(fraction, 1.0));
     } catch (...) {
       cancelled_ = true;
       throw;
@@ -39,6 +46,7 @@ class Watch {
   std::function<void(double)> tick_;
   std::thread::id caller_;
   std::atomic<bool> cancelled_ = false;
+  double part_from_ = 0, part_to_ = 1;  ///< the calling thread's, like the next
   double from_ = 0, to_ = 1;
 };
 
