@@ -15,6 +15,8 @@
 namespace atlas_refine {
 namespace {
 
+// The box of the disk that the embedding starts from is smaller than the box of what comes out: ask for more than the default gap.
+constexpr double kGapForLargerBox = 1.5;
 // An embedding above this E_d has collapsed: Tutte's shrinks parts that hang on a narrow neck beyond what doubles can mend.
 constexpr double kCollapsed = 100;
 
@@ -72,7 +74,7 @@ Chart re_embed(const Chart& chart, int chart_index, int threads, Monitor& monito
   start[0].uvs = tutte_disk(chart);
   if (const Validity valid = certify_charts(start); !valid.valid())
     throw fail("Tutte's embedding of it is not exact: " + valid.problem);
-  const ReduceProblem problem{.charts = start, .gap = {}, .threads = threads};
+  const ReduceProblem problem{.charts = start, .gap = {.value = kGapForLargerBox * Gap{}.value}, .threads = threads};
   const ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
     // E_d falls from far above to near 1: its logarithm tells how far the way is.
     monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
