@@ -1,8 +1,6 @@
 // The whole method, top to bottom: charts, the least intervention that holds the bound, the certificate.
 #include "atlas_refine/refine.h"
 
-#include <cmath>
-
 #include "input/split_charts.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
@@ -38,7 +36,7 @@ class Refinement {
     if (holds_already(set)) return outcome_.unchanged(gap_);
     const bool own_layout = !embed_where_needed(set) && certify_charts(set.charts).valid();
     charts_ = std::move(set.charts);
-    outcome_.begin_stage("pack", 0.2, 0.25);
+    outcome_.begin_stage("pack", 0.2, 0.4);
     const bool scaled = set_density(charts_, options_.density);
     const std::vector<Chart> placed = place_anew();
     if (holds_placed(placed)) return outcome_.certified(Intervention::Moved, placed, gap_);
@@ -84,11 +82,12 @@ class Refinement {
   }
 
   bool holds_placed(const std::vector<Chart>& placed) const {
-    return pe(placed) >= options_.pe_bound && distortion_allowed(dirichlet_sums(placed).best_energy());
+    constexpr double kRounding = 1 + 1e-6;  // storing single precision must not lose the bound
+    return pe(placed) >= kRounding * options_.pe_bound && distortion_allowed(dirichlet_sums(placed).best_energy());
   }
 
   RefineResult squeezed(bool own_layout, const std::vector<Chart>& placed) {
-    outcome_.begin_stage("squeeze", 0.25, 0.95);
+    outcome_.begin_stage("squeeze", 0.4, 0.95);
     std::vector<std::vector<Chart>> starts = {placed};
     if (own_layout && gap_kept(charts_, kStartGap)) add_own_layout(starts);
     Squeezed best = squeeze(starts, squeeze_options(options_, threads_), monitor_);
@@ -119,18 +118,6 @@ class Refinement {
 }  // namespace
 
 const char* version() { return ATLAS_REFINE_VERSION; }
-
-const char* to_string(Intervention intervention) {
-  switch (intervention) {
-    case Intervention::Unchanged:
-      return "unchanged";
-    case Intervention::Moved:
-      return "moved";
-    case Intervention::Squeezed:
-      return "squeezed";
-  }
-  return "unknown";
-}
 
 RefineResult refine(const Atlas& atlas, const RefineOptions& options, const ProgressFn& progress, DebugSink* debug) {
   check_options(options);

@@ -172,8 +172,10 @@ class Splitter {
       doubled += doubled_area(uv(corners[0]), uv(corners[i - 1]), uv(corners[i]));
     }
     FaceDefect::Kind kind = FaceDefect::Kind::Flipped;
-    if (zero && !negative) kind = FaceDefect::Kind::ZeroArea;
-    else if (corners.size() > 3 && doubled > 0) kind = FaceDefect::Kind::CrossesItself;
+    if (zero && !negative)
+      kind = FaceDefect::Kind::ZeroArea;
+    else if (corners.size() > 3 && doubled > 0)
+      kind = FaceDefect::Kind::CrossesItself;
     set_.defects.push_back({face_charts_[face], face, kind});
   }
 
@@ -259,9 +261,12 @@ std::vector<Chart> charts_as_placed(const ChartSet& set) {
 std::string describe(const FaceDefect& defect) {
   const std::string face = "face " + std::to_string(defect.face) + " of chart " + std::to_string(defect.chart);
   switch (defect.kind) {
-    case FaceDefect::Kind::Flipped: return face + " is flipped in the UV map";
-    case FaceDefect::Kind::ZeroArea: return face + " has no area in the UV map";
-    case FaceDefect::Kind::CrossesItself: return face + " crosses itself in the UV map";
+    case FaceDefect::Kind::Flipped:
+      return face + " is flipped in the UV map";
+    case FaceDefect::Kind::ZeroArea:
+      return face + " has no area in the UV map";
+    case FaceDefect::Kind::CrossesItself:
+      return face + " crosses itself in the UV map";
   }
   return face;
 }

@@ -17,9 +17,9 @@ struct CornerRef {
 /// A face that is not positive in the UV plane.
 struct FaceDefect {
   enum class Kind {
-    Flipped,         ///< turned against the rest of its chart
-    ZeroArea,        ///< a point or a line in the UV plane
-    CrossesItself,   ///< a polygon of positive area whose outline is not simple; its triangles are a fan
+    Flipped,        ///< turned against the rest of its chart
+    ZeroArea,       ///< a point or a line in the UV plane
+    CrossesItself,  ///< a polygon of positive area whose outline is not simple; its triangles are a fan
   };
   int chart;
   int face;

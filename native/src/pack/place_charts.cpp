@@ -22,8 +22,8 @@ Outline outline_of(const Chart& chart) {
   return outline;
 }
 
-/// Sides of a box of the asked aspect that the charts would fill to 60 %: rather too large a guess, whose gap costs little, than a
-/// second round of packing.
+/// Sides of a box of the asked aspect that the charts would fill to 60 %: rather too large a guess, whose gap costs little, than
+/// a second round of packing.
 Vec2 likely_box(double area, double aspect) {
   const double height = std::sqrt(area / 0.6 / (aspect > 0 ? aspect : 1));
   return {height * (aspect > 0 ? aspect : 1), height};

@@ -15,7 +15,7 @@
 namespace atlas_refine {
 namespace {
 
-// The box of the disk that the embedding starts from is smaller than the box of what comes out: ask for more than the default gap.
+// The disk that the embedding starts from has a smaller box than what comes out: ask for more than the default gap.
 constexpr double kGapForLargerBox = 1.5;
 // An embedding above this E_d has collapsed: Tutte's shrinks parts that hang on a narrow neck beyond what doubles can mend.
 constexpr double kCollapsed = 100;

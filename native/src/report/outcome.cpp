@@ -29,6 +29,18 @@ double rounded_to_single(double value) {
 
 }  // namespace
 
+const char* to_string(Intervention intervention) {
+  switch (intervention) {
+    case Intervention::Unchanged:
+      return "unchanged";
+    case Intervention::Moved:
+      return "moved";
+    case Intervention::Squeezed:
+      return "squeezed";
+  }
+  return "unknown";
+}
+
 Outcome::Outcome(const Atlas& atlas, const RefineOptions& options, Monitor& monitor, DebugSink* debug)
     : atlas_(atlas), options_(options), monitor_(monitor), debug_(debug) {}
 
