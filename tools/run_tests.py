@@ -143,7 +143,7 @@ def summary(table):
         print(f"{name:36} {counts.passed:5} passed {counts.failed:5} failed {len(counts.skipped):5} skipped")
     for reason in total.skipped:
         print(f"skipped: {reason}")
-    print(f"all tests: {total.passed} passed, {total.failed} failed, {len(total.skipped)} skipped in {len(table)} suites")
+    print(f"tests: {total.passed} passed, {total.failed} failed, {len(total.skipped)} skipped")
     return 1 if total.failed or total.passed == 0 else 0
 
 
