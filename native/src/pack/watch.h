@@ -1,5 +1,4 @@
-// Progress and cancellation within the packer: the tick is called from the
-// calling thread only, the others follow it.
+// Progress and cancellation within the packer: the tick is called from the calling thread only, the others follow it.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +8,7 @@
 
 namespace atlas_refine {
 
-/// Polled by all workers of one packing. The tick may throw to cancel; the
-/// other workers then end as well.
+/// Polled by all workers of one packing. The tick may throw to cancel; the other workers then end as well.
 class Watch {
  public:
   explicit Watch(std::function<void(double)> tick) : tick_(std::move(tick)), caller_(std::this_thread::get_id()) {}
