@@ -8,15 +8,14 @@
 namespace atlas_refine {
 namespace {
 
-std::vector<Placement> compacted(const std::vector<Outline>& outlines, const std::vector<Placement>& start, double gap,
-                                 double aspect = 0) {
-  return compact(outlines, start, {.gap = gap, .box_aspect = aspect}, {.first_step = 0.02, .poll = [] {}});
+CompactionOptions options_for(double gap, double aspect = 0) {
+  return {gap, aspect, 0.02, [] {}};
 }
 
 TEST(Compaction, TwoSquaresCloseUpToTheGap) {
   const auto square = testing::outline_of(shapes::rectangle(1, 1));
   const std::vector<Placement> start{{1, 0, {0, 0}}, {1, 0, {1.06, 0.0}}};
-  const auto result = compacted({square, square}, start, 0.01);
+  const auto result = compact({square, square}, start, options_for(0.01));
   EXPECT_NEAR(placed_box({square, square}, result).size().x(), 2.01, 1e-4);
   EXPECT_GE(testing::smallest_distance({square, square}, result), 0.01);
   EXPECT_NEAR(testing::smallest_distance({square, square}, result), 0.01, 1e-6);
@@ -26,7 +25,7 @@ TEST(Compaction, ATurnedChartTurnsBack) {
   const auto square = testing::outline_of(shapes::rectangle(1, 1));
   const double angle_rad = 0.05;
   const std::vector<Placement> start{{1, 0, {0, 0}}, {std::cos(angle_rad), std::sin(angle_rad), {1.12, 0.02}}};
-  const auto result = compacted({square, square}, start, 0.01);
+  const auto result = compact({square, square}, start, options_for(0.01));
   EXPECT_NEAR(placed_box({square, square}, result).area(), 2.01, 2e-3);
 }
 
@@ -35,7 +34,7 @@ TEST(Compaction, ChartsInterlock) {
   // One open to the top, one turned over with a limb part of the way in the bay of the other.
   const std::vector<Placement> start{{1, 0, {0, 0}}, {-1, 0, {1.15, 1.5}}};
   ASSERT_GT(testing::smallest_distance({u, u}, start), 1e-3);
-  const auto result = compacted({u, u}, start, 1e-3);
+  const auto result = compact({u, u}, start, options_for(1e-3));
   EXPECT_LT(placed_box({u, u}, result).area(), 1.2 * 1.2);
   EXPECT_GE(testing::smallest_distance({u, u}, result), 1e-3);
 }
@@ -44,15 +43,8 @@ TEST(Compaction, AFixedAspectCountsTheWholeBox) {
   const auto square = testing::outline_of(shapes::rectangle(1, 1));
   // In a square box only the longer side matters.
   const std::vector<Placement> start{{1, 0, {0, 0}}, {1, 0, {1.1, 0.05}}};
-  const auto result = compacted({square, square}, start, 0.01, 1);
+  const auto result = compact({square, square}, start, options_for(0.01, 1));
   EXPECT_NEAR(placed_box({square, square}, result).size().maxCoeff(), 2.01, 1e-3);
-}
-
-TEST(Compaction, TheGapMayBeAFractionOfTheBox) {
-  const auto square = testing::outline_of(shapes::rectangle(1, 1));
-  const PackOptions options{.gap_of_box = {0.01, Gap::Unit::LongSide}};
-  const auto result = compact({square, square}, {{1, 0, {0, 0}}, {1, 0, {1.05, 0.0}}}, options, {0.02, [] {}});
-  EXPECT_NEAR(placed_box({square, square}, result).size().x(), 2 / 0.99, 1e-4);
 }
 
 TEST(Compaction, RandomChartsNeverGetWorse) {
@@ -64,7 +56,7 @@ TEST(Compaction, RandomChartsNeverGetWorse) {
       start.push_back({1, 0, {1.03 * (k % 3), 1.03 * (k / 3)}});
     }
     const double before = placed_box(outlines, start).area();
-    const auto result = compacted(outlines, start, 0.02);
+    const auto result = compact(outlines, start, options_for(0.02));
     EXPECT_LT(placed_box(outlines, result).area(), 0.9 * before);
     EXPECT_GE(testing::smallest_distance(outlines, result), 0.02);
   }

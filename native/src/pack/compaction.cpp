@@ -1,4 +1,5 @@
-// Sequential linear programming: the distances of near vertices and edges, linearised in all charts' motions.
+// Sequential linear programming: the distances of near vertices and edges,
+// linearised in all charts' motions.
 #include "pack/compaction.h"
 
 #include <algorithm>
@@ -121,23 +122,24 @@ double smallest_gap(const Scene& scene, const BoxTree& tree) {
   return any_chart_inside_another(scene) ? 0 : nearest;
 }
 
-/// Variables: for each chart dx, dy and its turn times its radius; then the growth of width and height (or of width alone).
+/// Variables: for each chart dx, dy and its turn times its radius; then the
+/// growth of width and height (or of width alone).
 class Program {
  public:
-  Program(const Scene& scene, double aspect, double gap, double step, bool turning)
-      : scene_(scene), aspect_(aspect), gap_(gap), step_(step), turning_(turning), n_(static_cast<int>(scene.centres.size())) {}
+  Program(const Scene& scene, const CompactionOptions& options, double gap, double step, bool turning)
+      : scene_(scene), options_(options), gap_(gap), step_(step), turning_(turning), n_(static_cast<int>(scene.centres.size())) {}
 
   /// The motions, empty where the program cannot be solved.
-  Eigen::VectorXd solve(const std::function<void()>& poll) {
+  Eigen::VectorXd solve() {
     add_walls();
     add_contacts();
-    const bool fixed = aspect_ > 0;
+    const bool fixed = options_.box_aspect > 0;
     const int count = 3 * n_ + (fixed ? 1 : 2);
     Eigen::VectorXd cost = Eigen::VectorXd::Zero(count), reach = Eigen::VectorXd::Constant(count, step_);
     cost[3 * n_] = 1 / size_.x();
     if (!fixed) cost[3 * n_ + 1] = 1 / size_.y();
     for (int c = 0; c < n_; ++c) reach[3 * c + 2] = turning_ ? 0.5 * step_ : 1e-9 * step_;
-    return solve_linear_program(cost, inequalities_, reach, poll);
+    return solve_linear_program(cost, inequalities_, reach, options_.poll);
   }
 
  private:
@@ -153,7 +155,7 @@ class Program {
 
   void add_walls() {
     size_ = scene_.box.size();
-    const double aspect = aspect_;
+    const double aspect = options_.box_aspect;
     if (aspect > 0) size_ = Vec2(std::max(size_.x(), aspect * size_.y()), std::max(size_.y(), size_.x() / aspect));
     const Vec2 top = scene_.box.min + size_;
     for (const Edge& edge : scene_.edges) {
@@ -185,7 +187,8 @@ class Program {
     Vec2 foot;
   };
 
-  /// Constraints for one vertex: its nearest edges in each direction, for each chart that it faces.
+  /// Constraints for one vertex: its nearest edges in each direction, for each
+  /// chart that it faces.
   void add_contacts_of(const Edge& edge, std::vector<Contact>& near) {
     std::sort(near.begin(), near.end(), [&](const Contact& p, const Contact& q) {
       const int a = scene_.edges[p.edge].chart, b = scene_.edges[q.edge].chart;
@@ -198,7 +201,8 @@ class Program {
       if (chart != faced) normals.clear();
       faced = chart;
       const Vec2 normal = (edge.a - contact.foot) / contact.distance;
-      // A farther edge in much the same direction is left to the next, shorter step.
+      // A farther edge in much the same direction is left to the next, shorter
+      // step.
       if (std::any_of(normals.begin(), normals.end(), [&](const Vec2& n) { return n.dot(normal) > 0.9; })) continue;
       normals.push_back(normal);
       auto& row = inequalities_.emplace_back();
@@ -225,7 +229,8 @@ class Program {
   }
 
   const Scene& scene_;
-  double aspect_, gap_, step_;
+  const CompactionOptions& options_;
+  double gap_, step_;
   bool turning_;
   int n_;
   Vec2 size_ = Vec2::Zero();
@@ -258,21 +263,21 @@ Box placed_box(const std::vector<Outline>& outlines, const std::vector<Placement
 }
 
 std::vector<Placement> compact(const std::vector<Outline>& outlines, const std::vector<Placement>& placements,
-                               const PackOptions& options, const CompactionOptions& compaction) {
+                               const CompactionOptions& options) {
   constexpr int kIterations = 30;
-  const double aspect = options.box_aspect;
-  const auto asked_gap = [&](const Scene& scene) { return options.gap_in(box_of_aspect(scene.box, aspect).size()); };
   Scene scene = make_scene(outlines, placements);
   const double diagonal = scene.box.diagonal();
-  double cost = box_cost(scene.box, aspect), best_cost = INFINITY;
-  std::vector<Placement> state = placements, best;
-  double step = compaction.first_step;
+  // Aimed a little above the gap, so that round-off does not fall below it.
+  // Charts must not touch even without a gap.
+  const double gap = std::max((1 + 1e-9) * options.gap, 1e-6 * diagonal);
+  double cost = box_cost(scene.box, options.box_aspect), best_cost = cost;
+  std::vector<Placement> state = placements, best = placements;
+  double step = options.first_step;
   for (int iteration = 0; iteration < kIterations && step > 2e-5 * diagonal; ++iteration) {
-    // Aimed a little above the gap, so that round-off does not fall below it. Charts must not touch even without a gap.
-    const double gap = std::max((1 + 1e-9) * asked_gap(scene), 1e-6 * diagonal);
-    // The last, short steps only shift: there the linear program is exact, and the gap comes out as asked.
+    // The last, short steps only shift: there the linear program is exact, and
+    // the gap comes out as asked.
     const bool turning = iteration < kIterations - 2 && step > 1e-4 * diagonal;
-    const Eigen::VectorXd motion = Program(scene, aspect, gap, step, turning).solve(compaction.poll);
+    const Eigen::VectorXd motion = Program(scene, options, gap, step, turning).solve();
     if (motion.size() == 0) {
       step /= 4;
       continue;
@@ -284,12 +289,12 @@ std::vector<Placement> compact(const std::vector<Outline>& outlines, const std::
       step /= 4;
       continue;
     }
-    const double trial_cost = box_cost(trial_scene.box, aspect);
+    const double trial_cost = box_cost(trial_scene.box, options.box_aspect);
     if (trial_cost > cost - 1e-3) step /= 2;
     state = std::move(trial);
     scene = std::move(trial_scene);
     cost = trial_cost;
-    if (reached > 0 && reached >= asked_gap(scene) && cost < best_cost) {
+    if (reached >= options.gap && cost < best_cost) {
       best_cost = cost;
       best = state;
     }

@@ -1,11 +1,11 @@
-// The search for a packing: cheap starts first, and on to the next means only while the target is not reached.
+// The search for a packing: cheap starts first, and on to the next means only
+// while the target is not reached.
 #include "pack/grid_search.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "measure/distortion.h"
 #include "pack/compaction.h"
 #include "pack/separation.h"
 #include "support/parallel.h"
@@ -13,7 +13,8 @@
 namespace atlas_refine {
 namespace {
 
-/// Beyond this many charts, separation and many starts cost more than they bring.
+/// Beyond this many charts, separation and many starts cost more than they
+/// bring.
 constexpr int kManyCharts = 200;
 /// Beyond this many charts even compaction does.
 constexpr int kTooManyToCompact = 1000;
@@ -29,28 +30,26 @@ double boundary_length(const Outline& outline) {
 
 /// The charts on a grid whose cell suits their number.
 struct Grid {
-  double gap;             ///< that the charts keep when their bitmaps are disjoint
   double cells_per_side;  ///< of the square that the charts would fill to four
                           ///< fifths
   double cell;
   std::vector<GridChart> charts;
 };
 
-Grid make_grid(const std::vector<Outline>& outlines, double area, double gap, int threads, Watch& watch) {
+Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options, Watch& watch) {
   const int n = static_cast<int>(outlines.size());
   double dilated_area = area;
-  for (const Outline& outline : outlines) dilated_area += 0.5 * gap * boundary_length(outline);
+  for (const Outline& outline : outlines) dilated_area += 0.5 * options.gap * boundary_length(outline);
   Grid grid;
-  grid.gap = gap;
   grid.cells_per_side = std::clamp(256 * std::sqrt(n / 60.0), 256.0, 1024.0);
   grid.cell = std::sqrt(dilated_area / 0.8) / grid.cells_per_side;
   grid.charts.resize(n);
-  parallel_ranges(n, threads, 16, [&](int begin, int end) {
+  parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       watch.poll(static_cast<double>(i - begin) / (end - begin));
       for (Turn turn : small_box_turns(convex_hull(outlines[i]), n > kManyCharts ? 1 : 2)) {
         for (int quarter = 0; quarter < 4; ++quarter, turn = turn.quarter_turned()) {
-          grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * gap, grid.cell));
+          grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options.gap, grid.cell));
         }
       }
     }
@@ -58,7 +57,8 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, double gap, in
   return grid;
 }
 
-/// A random rule: charts by size with some noise, a strip between tall and wide.
+/// A random rule: charts by size with some noise, a strip between tall and
+/// wide.
 GreedyRule random_rule(const Grid& grid, double aspect, Rng rng) {
   const int n = static_cast<int>(grid.charts.size());
   GreedyRule rule;
@@ -91,21 +91,20 @@ std::vector<Placement> placements_of(const Grid& grid, const Layout& layout) {
   return placements;
 }
 
-/// The search's state: the layouts so far, and the best placements of those that were compacted.
+/// The search's state: the layouts so far, and the best placements of those
+/// that were compacted.
 class Search {
  public:
-  /// `gap` is a guess where it depends on the box.
-  Search(const std::vector<Outline>& outlines, double area, double gap, const PackOptions& options)
+  Search(const std::vector<Outline>& outlines, double area, const PackOptions& options)
       : outlines_(outlines),
         options_(options),
         threads_(resolve_threads(options.threads)),
         watch_(options.tick),
         enough_(area / options.target_pe) {
     watch_.begin_part(0, 0.05);
-    grid_ = make_grid(outlines, area, gap, threads_, watch_);
+    grid_ = make_grid(outlines, area, options, watch_);
   }
 
-  /// Empty where the guess of the gap was too small for the box that came out.
   std::vector<Placement> run() {
     const int n = static_cast<int>(outlines_.size());
     start_greedily(n > kManyCharts ? std::clamp(2000 / n, 1, 8) : std::clamp(4000 / n, 64, 400));
@@ -117,9 +116,6 @@ class Search {
     return best_;
   }
 
-  /// Of the smallest layout on the grid.
-  Vec2 grid_box() const { return Vec2(layouts_[0].width, layouts_[0].height) * grid_.cell; }
-
  private:
   double area_of(const Layout& layout) const {
     return box_area(layout.width * grid_.cell, layout.height * grid_.cell, options_.box_aspect);
@@ -128,14 +124,14 @@ class Search {
   /// Smallest box first; keeps the best placements up to date.
   void rank() {
     std::stable_sort(layouts_.begin(), layouts_.end(), [&](const Layout& a, const Layout& b) { return area_of(a) < area_of(b); });
-    offer(placements_of(grid_, layouts_[0]), grid_.gap);
+    offer(placements_of(grid_, layouts_[0]));
   }
 
-  /// Placements that are known to keep a gap.
-  void offer(std::vector<Placement> placements, double gap) {
-    const Box box = box_of_aspect(placed_box(outlines_, placements), options_.box_aspect);
-    if (box.area() >= least_area_ || gap < options_.gap_in(box.size())) return;
-    least_area_ = box.area();
+  void offer(std::vector<Placement> placements) {
+    const Vec2 size = placed_box(outlines_, placements).size();
+    const double area = box_area(size.x(), size.y(), options_.box_aspect);
+    if (area >= least_area_) return;
+    least_area_ = area;
     best_ = std::move(placements);
   }
 
@@ -171,13 +167,11 @@ class Search {
     parallel_ranges(count, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         watch_.begin_task(k - begin, end - begin);
-        const CompactionOptions compaction{2 * grid_.cell, [&] { watch_.poll(0); }};
-        compacted[k] = compact(outlines_, placements_of(grid_, layouts_[k]), options_, compaction);
+        const CompactionOptions options{options_.gap, options_.box_aspect, 2 * grid_.cell, [&] { watch_.poll(0); }};
+        compacted[k] = compact(outlines_, placements_of(grid_, layouts_[k]), options);
       }
     });
-    for (auto& placements : compacted) {
-      if (!placements.empty()) offer(std::move(placements), INFINITY);
-    }
+    for (auto& placements : compacted) offer(std::move(placements));
   }
 
   const std::vector<Outline>& outlines_;
@@ -194,15 +188,7 @@ class Search {
 }  // namespace
 
 std::vector<Placement> search_on_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options) {
-  // A first guess of the box: the charts fill three quarters of it.
-  const double aspect = options.box_aspect > 0 ? options.box_aspect : 1;
-  Vec2 box = std::sqrt(area / 0.75 / aspect) * Vec2(aspect, 1);
-  for (double more = 1;; more += 0.01) {
-    Search search(outlines, area, more * options.gap_in(box), options);
-    std::vector<Placement> placements = search.run();
-    if (!placements.empty()) return placements;
-    box = search.grid_box();
-  }
+  return Search(outlines, area, options).run();
 }
 
 }  // namespace atlas_refine

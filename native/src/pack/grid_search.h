@@ -1,4 +1,5 @@
-// The search for a packing: greedy starts on a grid, separations in ever smaller boxes, exact compaction of the best.
+// The search for a packing: greedy starts on a grid, separations in ever
+// smaller boxes, exact compaction of the best.
 #pragma once
 
 #include <vector>
@@ -7,7 +8,8 @@
 
 namespace atlas_refine {
 
-/// Placements of two or more outlines that keep the gap; their box lies anywhere. `area` is the sum of the charts' areas.
+/// Placements of two or more outlines; their box lies anywhere. `area` is the
+/// sum of the charts' areas.
 std::vector<Placement> search_on_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options);
 
 }  // namespace atlas_refine

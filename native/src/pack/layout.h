@@ -23,7 +23,8 @@ struct Layout {
   int height = 0;
 };
 
-/// Area of the box that charts of this extent need, of the asked aspect where it is not 0.
+/// Area of the box that charts of this extent need, of the asked aspect where
+/// it is not 0.
 inline double box_area(double width, double height, double aspect) {
   return box_of_aspect({Vec2::Zero(), Vec2(width, height)}, aspect).area();
 }
@@ -37,7 +38,8 @@ struct GreedyRule {
   Rng rng{0};
 };
 
-/// Places charts one after another, each in the turn and at the place that the rule likes best.
+/// Places charts one after another, each in the turn and at the place that the
+/// rule likes best.
 Layout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& rule, Watch& watch);
 
 }  // namespace atlas_refine

@@ -1,4 +1,5 @@
-// Mehrotra's predictor-corrector method on the normal equations: min c.z, A z - s = b, s >= 0, -reach <= z <= reach.
+// Mehrotra's predictor-corrector method on the normal equations: min c.z, A z -
+// s = b, s >= 0, -reach <= z <= reach.
 #include "pack/linear_program.h"
 
 #include <Eigen/SparseCholesky>

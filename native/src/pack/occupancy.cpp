@@ -83,7 +83,8 @@ std::uint64_t Occupancy::blocked_word(const Raster& raster, const std::vector<in
 bool Occupancy::find_lowest(const Raster& raster, int highest, Cell& place) {
   const int positions = width_ - raster.width + 1;
   if (positions <= 0) return false;
-  // The longest run first, then runs spread over all heights: each is likely to block what those before it did not.
+  // The longest run first, then runs spread over all heights: each is likely to
+  // block what those before it did not.
   const int count = static_cast<int>(raster.runs.size());
   std::vector<int> order;
   const auto length = [&](int k) { return raster.runs[k].end - raster.runs[k].begin; };

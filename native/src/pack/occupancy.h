@@ -1,4 +1,5 @@
-// The strip that is filled from below: which cells are taken, and where a raster fits lowest.
+// The strip that is filled from below: which cells are taken, and where a
+// raster fits lowest.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +9,9 @@
 
 namespace atlas_refine {
 
-/// A bitmap of fixed width that grows upward. For every row it also keeps the cells from which a run of 2^k free cells starts, so
-/// that testing a run of any length costs two lookups for 64 positions at once.
+/// A bitmap of fixed width that grows upward. For every row it also keeps the
+/// cells from which a run of 2^k free cells starts, so that testing a run of
+/// any length costs two lookups for 64 positions at once.
 class Occupancy {
  public:
   explicit Occupancy(int width);
@@ -17,7 +19,8 @@ class Occupancy {
   int width() const { return width_; }
   int height() const { return height_; }  ///< rows up to the topmost taken cell
 
-  /// Lowest, then leftmost place of the raster with y <= highest; false where there is none.
+  /// Lowest, then leftmost place of the raster with y <= highest; false where
+  /// there is none.
   bool find_lowest(const Raster& raster, int highest, Cell& place);
   void add(const Raster& raster, const Cell& place);
 
@@ -25,7 +28,8 @@ class Occupancy {
   std::uint64_t* level_row(int y, int level) { return taken_.data() + (static_cast<size_t>(y) * levels_ + level) * words_; }
   void grow(int rows);
   int longest_free_run(int y);
-  /// The x in [64 word, 64 word + 64) at which the raster placed at height y hits a taken cell.
+  /// The x in [64 word, 64 word + 64) at which the raster placed at height y
+  /// hits a taken cell.
   std::uint64_t blocked_word(const Raster& raster, const std::vector<int>& order, int y, int word);
 
   int width_;

@@ -1,4 +1,5 @@
-// The packer: a chart alone gets its best turn; several are placed on a grid, then compacted exactly.
+// The packer: a chart alone gets its best turn; several are placed on a grid,
+// then compacted exactly.
 #include "pack/pack_charts.h"
 
 #include "measure/distortion.h"

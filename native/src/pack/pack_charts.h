@@ -1,22 +1,23 @@
-// Placing rigid charts of any outline in a box: rotations, an exact gap, free or fixed aspect.
+// Placing rigid charts of any outline in a box: rotations, an exact gap, free
+// or fixed aspect.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
-#include "atlas_refine/refine.h"
 #include "geometry/chart.h"
 
 namespace atlas_refine {
 
-/// A chart's outline: all boundary loops (chart on the left; outer first, then holes), in the units of the box to be found.
+/// A chart's outline: all boundary loops (chart on the left; outer first, then
+/// holes), in the units of the box to be found.
 struct Outline {
   std::vector<std::vector<Vec2>> loops;
 };
 
-/// Rigid motion: p -> (cos, -sin; sin, cos) p + offset. No scaling, no mirroring.
+/// Rigid motion: p -> (cos, -sin; sin, cos) p + offset. No scaling, no
+/// mirroring.
 struct Placement {
   double cosine = 1;
   double sine = 0;
@@ -28,25 +29,27 @@ struct Placement {
 };
 
 struct PackOptions {
-  double gap = 0;         ///< smallest distance between two charts, absolute, in the outlines' units
-  Gap gap_of_box{0};      ///< and no less than this fraction of the box that comes out
+  double gap = 0;         ///< smallest distance between two charts, absolute, in the
+                          ///< outlines' units
   double box_aspect = 0;  ///< width / height, 0 = free
   double target_pe = 1;   ///< stop searching once sum(area) / box area reaches this
   std::uint64_t seed = 1;
   int threads = 1;
-  std::function<void(double)> tick = {};  ///< called from the calling thread with progress in [0, 1]; may throw to cancel
-
-  double gap_in(const Vec2& box_size) const { return std::max(gap, gap_of_box.length(box_size)); }
+  std::function<void(double)> tick = {};  ///< called from the calling thread with
+                                          ///< progress in [0, 1]; may throw to cancel
 };
 
 struct Packing {
   std::vector<Placement> placements;  ///< one per outline
-  Box box;                            ///< of the placed outlines (of the asked aspect where that is fixed), min = (0, 0)
+  Box box;                            ///< of the placed outlines (of the asked aspect where that is
+                                      ///< fixed), min = (0, 0)
   double pe = 0;                      ///< sum(area) / box area
 };
 
-/// `areas[i]` is the UV area of outline i. Distances between placed outlines are at least the gap, by construction of the bitmaps
-/// or measured exactly after compaction. Deterministic for a seed, whatever the number of threads. Near-linear in charts.
+/// `areas[i]` is the UV area of outline i. Distances between placed outlines
+/// are at least `gap` by construction (conservative rasterisation, never less
+/// than asked). Deterministic for a seed, whatever the number of threads.
+/// Near-linear in charts.
 Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<double>& areas, const PackOptions& options);
 
 }  // namespace atlas_refine

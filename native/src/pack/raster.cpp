@@ -1,4 +1,5 @@
-// Conservative bitmaps: per row of cells, the exact extent of every dilated edge, and the inside between them.
+// Conservative bitmaps: per row of cells, the exact extent of every dilated
+// edge, and the inside between them.
 #include "pack/raster.h"
 
 #include <algorithm>
@@ -31,7 +32,8 @@ struct Capsule {
     return x;
   }
 
-  /// Largest x in the band [low, high], which the capsule reaches: its right side is concave in y.
+  /// Largest x in the band [low, high], which the capsule reaches: its right
+  /// side is concave in y.
   double right_in(double low, double high) const {
     const Vec2& tip = a.x() > b.x() ? a : b;
     if (tip.y() >= low && tip.y() <= high) return tip.x() + radius;
@@ -126,7 +128,8 @@ int shared_cells(const Raster& a, const Cell& a_place, const Raster& b, const Ce
   if (bottom >= top || left >= right) return 0;
   int count = 0;
   for (int word = (left - a_place.x) >> 6; word <= (right - 1 - a_place.x) >> 6; ++word) {
-    // The word's 64 cells begin at `at` in b; b's guard words make both reads safe.
+    // The word's 64 cells begin at `at` in b; b's guard words make both reads
+    // safe.
     const int at = word * 64 + a_place.x - b_place.x;
     const int b_word = at >> 6, shift = at & 63;
     const std::uint64_t* a_row = a.row(bottom - a_place.y) + word;

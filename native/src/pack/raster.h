@@ -1,4 +1,5 @@
-// Conservative bitmaps of turned outlines, dilated by half the gap: disjoint bitmaps mean a distance of at least the gap.
+// Conservative bitmaps of turned outlines, dilated by half the gap: disjoint
+// bitmaps mean a distance of at least the gap.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,8 @@ struct Run {
   int end;
 };
 
-/// Every cell that a turned and dilated outline touches. Cell (0, 0) has its min corner at `origin`, in the turned frame.
+/// Every cell that a turned and dilated outline touches. Cell (0, 0) has its
+/// min corner at `origin`, in the turned frame.
 struct Raster {
   Turn turn;
   Vec2 origin = Vec2::Zero();
@@ -30,7 +32,8 @@ struct Raster {
   const std::uint64_t* row(int y) const { return bits.data() + 1 + static_cast<size_t>(y) * stride(); }
 };
 
-/// The outline turned, dilated by `radius` and covered with cells of side `cell`.
+/// The outline turned, dilated by `radius` and covered with cells of side
+/// `cell`.
 Raster rasterise(const Outline& outline, const Turn& turn, double radius, double cell);
 
 struct Cell {
@@ -38,7 +41,8 @@ struct Cell {
   int y = 0;
 };
 
-/// Number of cells that two rasters share when their cells (0, 0) lie at the given places.
+/// Number of cells that two rasters share when their cells (0, 0) lie at the
+/// given places.
 int shared_cells(const Raster& a, const Cell& a_place, const Raster& b, const Cell& b_place);
 
 }  // namespace atlas_refine

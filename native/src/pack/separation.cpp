@@ -1,4 +1,5 @@
-// Guided local search on overlaps: each pair's overlap has a weight that grows while it lasts.
+// Guided local search on overlaps: each pair's overlap has a weight that grows
+// while it lasts.
 #include "pack/separation.h"
 
 #include <algorithm>
@@ -9,7 +10,8 @@ namespace {
 
 /// Work of one shrink_box, in row words compared: about 0.15 s.
 constexpr std::int64_t kBudget = 20'000'000;
-/// Passes over the overlapping charts without progress before a separation gives up.
+/// Passes over the overlapping charts without progress before a separation
+/// gives up.
 constexpr int kPatience = 60;
 
 struct Pose {
@@ -25,7 +27,8 @@ class Separation {
 
   bool exhausted() const { return work_ >= kBudget; }
 
-  /// Moves and turns the charts until no two overlap inside width x height cells; false where it gives up.
+  /// Moves and turns the charts until no two overlap inside width x height
+  /// cells; false where it gives up.
   bool run(Layout& layout, int width, int height);
 
  private:
@@ -60,7 +63,8 @@ class Separation {
   std::int64_t work_ = 0;
 };
 
-/// Root of the overlap's area: a depth, so that a thin overlap counts about as much as its removal costs.
+/// Root of the overlap's area: a depth, so that a thin overlap counts about as
+/// much as its removal costs.
 double Separation::pair_loss(int a, int b, int turn, const Cell& place) {
   const Raster& one = charts_[a].rasters[turn];
   const Raster& two = charts_[b].rasters[layout_->turns[b]];
@@ -72,7 +76,8 @@ double Separation::pair_loss(int a, int b, int turn, const Cell& place) {
   return std::sqrt(static_cast<double>(shared_cells(one, place, two, other)));
 }
 
-/// Weighted overlap of a chart in a pose, or any value >= bound once it is clear that it is no less.
+/// Weighted overlap of a chart in a pose, or any value >= bound once it is
+/// clear that it is no less.
 double Separation::cost_at(int chart, int turn, const Cell& place, double bound) {
   work_ += n_ / 4 + 1;
   double cost = 0;
@@ -82,7 +87,8 @@ double Separation::cost_at(int chart, int turn, const Cell& place, double bound)
   return cost;
 }
 
-/// Anywhere in the box, or near the present place; false where the turn drawn does not fit.
+/// Anywhere in the box, or near the present place; false where the turn drawn
+/// does not fit.
 bool Separation::random_pose(int chart, bool near, Pose& pose) {
   const auto& rasters = charts_[chart].rasters;
   pose.turn = rng_.below(static_cast<int>(rasters.size()));
@@ -122,7 +128,8 @@ Pose Separation::descend(int chart, Pose pose, int step) {
   return pose;
 }
 
-/// Samples poses, and descends from the best few of them and from the present one.
+/// Samples poses, and descends from the best few of them and from the present
+/// one.
 Pose Separation::best_pose(int chart) {
   constexpr int kAnywhere = 40, kNear = 10;
   constexpr size_t kKept = 3;
@@ -226,7 +233,8 @@ void measure_box(const std::vector<GridChart>& charts, Layout& layout) {
   }
 }
 
-/// A box smaller by the fraction `shrink`: of the aspect, or narrower on one side.
+/// A box smaller by the fraction `shrink`: of the aspect, or narrower on one
+/// side.
 Cell smaller_box(const Layout& layout, double aspect, double shrink, Rng& rng) {
   if (aspect > 0) {
     const double width = std::max<double>(layout.width, layout.height * aspect) * (1 - 0.5 * shrink);

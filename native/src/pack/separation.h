@@ -1,4 +1,5 @@
-// Guided local search: charts that overlap in a box a little too small are moved and turned until none does.
+// Guided local search: charts that overlap in a box a little too small are
+// moved and turned until none does.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@ struct BoxGoal {
   double enough = 0;  ///< stop at this box area
 };
 
-/// Shrinks a feasible layout's box again and again until a fixed amount of work is used up. Deterministic.
+/// Shrinks a feasible layout's box again and again until a fixed amount of work
+/// is used up. Deterministic.
 Layout shrink_box(const std::vector<GridChart>& charts, const Layout& start, const BoxGoal& goal, std::uint64_t seed,
                   Watch& watch);
 

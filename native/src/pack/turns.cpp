@@ -1,4 +1,5 @@
-// Rotations by rotating calipers: a smallest box has a side along a hull edge, or touches its aspect between two such turns.
+// Rotations by rotating calipers: a smallest box has a side along a hull edge,
+// or touches its aspect between two such turns.
 #include "pack/turns.h"
 
 #include <algorithm>
@@ -12,7 +13,8 @@ double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(
 
 Turn turn_of(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
-/// Angles in [0, pi / 2), ascending, at which some hull edge is parallel to an axis.
+/// Angles in [0, pi / 2), ascending, at which some hull edge is parallel to an
+/// axis.
 std::vector<double> caliper_angles(const std::vector<Vec2>& hull) {
   constexpr double kQuarter = std::numbers::pi / 2;
   std::vector<double> angles;
@@ -27,13 +29,15 @@ std::vector<double> caliper_angles(const std::vector<Vec2>& hull) {
   return angles;
 }
 
-/// Side of the smallest box of the aspect, measured along its width; for aspect 0 the box' area.
+/// Side of the smallest box of the aspect, measured along its width; for aspect
+/// 0 the box' area.
 double box_cost(const Vec2& size, double aspect) {
   return aspect > 0 ? std::max(size.x(), aspect * size.y()) : size.x() * size.y();
 }
 
-/// The turn strictly between two caliper turns at which width = aspect * height: both are linear in (cos, sin) there. Returns a
-/// negative angle where there is none.
+/// The turn strictly between two caliper turns at which width = aspect *
+/// height: both are linear in (cos, sin) there. Returns a negative angle where
+/// there is none.
 double balanced_angle(const std::vector<Vec2>& hull, double from, double to, double aspect) {
   const Turn middle = turn_of(0.5 * (from + to));
   const auto span = [&](const Vec2& direction) {

@@ -1,4 +1,5 @@
-// Rotations worth trying for a rigid outline: those that make its bounding box small.
+// Rotations worth trying for a rigid outline: those that make its bounding box
+// small.
 #pragma once
 
 #include <vector>
@@ -16,17 +17,20 @@ struct Turn {
   Turn quarter_turned() const { return {-sine, cosine}; }
 };
 
-/// Corners of the convex hull, counterclockwise, no three collinear (up to round-off).
+/// Corners of the convex hull, counterclockwise, no three collinear (up to
+/// round-off).
 std::vector<Vec2> convex_hull(const Outline& outline);
 
 /// Bounding box of the points after the turn.
 Box turned_box(const std::vector<Vec2>& points, const Turn& turn);
 
-/// The turns that lay a hull edge on an axis and are local minima of the bounding box' area, smallest box first, at most `count`;
-/// one per class of quarter turns. Never empty.
+/// The turns that lay a hull edge on an axis and are local minima of the
+/// bounding box' area, smallest box first, at most `count`; one per class of
+/// quarter turns. Never empty.
 std::vector<Turn> small_box_turns(const std::vector<Vec2>& hull, int count);
 
-/// The turn with the smallest bounding box of the given aspect (width / height), exact; for aspect 0 the smallest bounding box.
+/// The turn with the smallest bounding box of the given aspect (width /
+/// height), exact; for aspect 0 the smallest bounding box.
 Turn best_turn(const std::vector<Vec2>& hull, double aspect);
 
 }  // namespace atlas_refine

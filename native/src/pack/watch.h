@@ -1,4 +1,5 @@
-// Progress and cancellation within the packer: the tick is called from the calling thread only, the others follow it.
+// Progress and cancellation within the packer: the tick is called from the
+// calling thread only, the others follow it.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +9,8 @@
 
 namespace atlas_refine {
 
-/// Polled by all workers of one packing. The tick may throw to cancel; the other workers then end as well.
+/// Polled by all workers of one packing. The tick may throw to cancel; the
+/// other workers then end as well.
 class Watch {
  public:
   explicit Watch(std::function<void(double)> tick) : tick_(std::move(tick)), caller_(std::this_thread::get_id()) {}
