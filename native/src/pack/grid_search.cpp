@@ -1,11 +1,11 @@
-// The search for a packing: cheap starts first, and on to the next means only while the target is not reached.
+// The search for a packing: cheap starts first, and on to the next means only
+// while the target is not reached.
 #include "pack/grid_search.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "measure/distortion.h"
 #include "pack/compaction.h"
 #include "pack/separation.h"
 #include "support/parallel.h"
@@ -13,7 +13,8 @@
 namespace atlas_refine {
 namespace {
 
-/// Beyond this many charts, separation and many starts cost more than they bring.
+/// Beyond this many charts, separation and many starts cost more than they
+/// bring.
 constexpr int kManyCharts = 200;
 /// Beyond this many charts even compaction does.
 constexpr int kTooManyToCompact = 1000;
@@ -29,40 +30,26 @@ double boundary_length(const Outline& outline) {
 
 /// The charts on a grid whose cell suits their number.
 struct Grid {
-  double gap;             ///< that the charts keep when their bitmaps are disjoint
   double cells_per_side;  ///< of the square that the charts would fill to four
                           ///< fifths
   double cell;
   std::vector<GridChart> charts;
 };
 
-/// The turns that are tried for a chart, up to quarter turns: those with small boxes; and, for a chart that is long against a
-/// box of fixed aspect, the one that fits it into the smallest such box.
-std::vector<Turn> turns_of(const Outline& outline, int count, double aspect, double box_width) {
-  const std::vector<Vec2> hull = convex_hull(outline);
-  std::vector<Turn> turns = small_box_turns(hull, count);
-  if (aspect > 0 && turned_box(hull, turns[0]).size().maxCoeff() > 0.7 * std::min(box_width, box_width / aspect)) {
-    turns.push_back(best_turn(hull, aspect));
-  }
-  return turns;
-}
-
-Grid make_grid(const std::vector<Outline>& outlines, double area, double gap, const PackOptions& options, Watch& watch) {
+Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options, Watch& watch) {
   const int n = static_cast<int>(outlines.size());
   double dilated_area = area;
-  for (const Outline& outline : outlines) dilated_area += 0.5 * gap * boundary_length(outline);
+  for (const Outline& outline : outlines) dilated_area += 0.5 * options.gap * boundary_length(outline);
   Grid grid;
-  grid.gap = gap;
-  const double side = std::sqrt(dilated_area / 0.8), box_width = side * std::sqrt(options.box_aspect);
   grid.cells_per_side = std::clamp(256 * std::sqrt(n / 60.0), 256.0, 1024.0);
-  grid.cell = side / grid.cells_per_side;
+  grid.cell = std::sqrt(dilated_area / 0.8) / grid.cells_per_side;
   grid.charts.resize(n);
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       watch.poll(static_cast<double>(i - begin) / (end - begin));
-      for (Turn turn : turns_of(outlines[i], n > kManyCharts ? 1 : 2, options.box_aspect, box_width)) {
+      for (Turn turn : small_box_turns(convex_hull(outlines[i]), n > kManyCharts ? 1 : 2)) {
         for (int quarter = 0; quarter < 4; ++quarter, turn = turn.quarter_turned()) {
-          grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * gap, grid.cell));
+          grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options.gap, grid.cell));
         }
       }
     }
@@ -70,8 +57,9 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, double gap, co
   return grid;
 }
 
-/// A random rule: charts by size with some noise, in a strip of about the given width in cells.
-GreedyRule random_rule(const Grid& grid, double width, Rng rng) {
+/// A random rule: charts by size with some noise, a strip between tall and
+/// wide.
+GreedyRule random_rule(const Grid& grid, double aspect, Rng rng) {
   const int n = static_cast<int>(grid.charts.size());
   GreedyRule rule;
   const double noise = rng.below(4) == 0 ? 0.0 : 0.4;
@@ -80,14 +68,13 @@ GreedyRule random_rule(const Grid& grid, double width, Rng rng) {
   for (int i = 0; i < n; ++i) {
     const Raster& first = grid.charts[i].rasters[0];
     size[i] = static_cast<double>(first.width) * first.height * std::exp(noise * rng.uniform(-1, 1));
-    int narrowest = first.width;
-    for (const Raster& raster : grid.charts[i].rasters) narrowest = std::min(narrowest, raster.width);
-    widest = std::max(widest, narrowest);
+    widest = std::max(widest, std::min(first.width, first.height));
   }
   rule.order.resize(n);
   std::iota(rule.order.begin(), rule.order.end(), 0);
   std::sort(rule.order.begin(), rule.order.end(), [&](int a, int b) { return size[a] != size[b] ? size[a] > size[b] : a < b; });
-  rule.strip_width = std::max(widest, static_cast<int>(width));
+  const double width = aspect > 0 ? rng.uniform(0.95, 1.1) * std::sqrt(aspect) : rng.uniform(0.7, 1.4);
+  rule.strip_width = std::max(widest, static_cast<int>(grid.cells_per_side * width));
   rule.height_weight = rng.uniform(0.3, 1.2);
   rule.turn_noise = rng.uniform(0, 0.2);
   rule.rng = rng;
@@ -104,21 +91,20 @@ std::vector<Placement> placements_of(const Grid& grid, const Layout& layout) {
   return placements;
 }
 
-/// The search's state: the layouts so far, and the best placements of those that were compacted.
+/// The search's state: the layouts so far, and the best placements of those
+/// that were compacted.
 class Search {
  public:
-  /// `gap` is a guess where it depends on the box.
-  Search(const std::vector<Outline>& outlines, double area, double gap, const PackOptions& options)
+  Search(const std::vector<Outline>& outlines, double area, const PackOptions& options)
       : outlines_(outlines),
         options_(options),
         threads_(resolve_threads(options.threads)),
         watch_(options.tick),
         enough_(area / options.target_pe) {
     watch_.begin_part(0, 0.05);
-    grid_ = make_grid(outlines, area, gap, options, watch_);
+    grid_ = make_grid(outlines, area, options, watch_);
   }
 
-  /// Empty where the guess of the gap was too small for the box that came out.
   std::vector<Placement> run() {
     const int n = static_cast<int>(outlines_.size());
     start_greedily(n > kManyCharts ? std::clamp(2000 / n, 1, 8) : std::clamp(4000 / n, 64, 400));
@@ -130,9 +116,6 @@ class Search {
     return best_;
   }
 
-  /// Of the smallest layout on the grid.
-  Vec2 grid_box() const { return Vec2(layouts_[0].width, layouts_[0].height) * grid_.cell; }
-
  private:
   double area_of(const Layout& layout) const {
     return box_area(layout.width * grid_.cell, layout.height * grid_.cell, options_.box_aspect);
@@ -141,35 +124,24 @@ class Search {
   /// Smallest box first; keeps the best placements up to date.
   void rank() {
     std::stable_sort(layouts_.begin(), layouts_.end(), [&](const Layout& a, const Layout& b) { return area_of(a) < area_of(b); });
-    offer(placements_of(grid_, layouts_[0]), grid_.gap);
+    offer(placements_of(grid_, layouts_[0]));
   }
 
-  /// Placements that are known to keep a gap.
-  void offer(std::vector<Placement> placements, double gap) {
-    const Box box = box_of_aspect(placed_box(outlines_, placements), options_.box_aspect);
-    if (box.area() >= least_area_ || gap < options_.gap_in(box.size())) return;
-    least_area_ = box.area();
+  void offer(std::vector<Placement> placements) {
+    const Vec2 size = placed_box(outlines_, placements).size();
+    const double area = box_area(size.x(), size.y(), options_.box_aspect);
+    if (area >= least_area_) return;
+    least_area_ = area;
     best_ = std::move(placements);
   }
 
   void start_greedily(int starts) {
-    const double aspect = options_.box_aspect;
-    double width = grid_.cells_per_side;
-    watch_.begin_part(0.05, 0.1);
-    if (aspect > 0) {
-      // How high the charts stack in a strip tells the strip that they fill to the aspect.
-      const Layout trial =
-          place_greedily(grid_.charts, random_rule(grid_, width * std::sqrt(aspect), Rng(options_.seed, 1)), watch_);
-      width = std::sqrt(aspect * trial.width * trial.height);
-    }
     layouts_.resize(starts);
-    watch_.begin_part(0.1, 0.3);
+    watch_.begin_part(0.05, 0.3);
     parallel_ranges(starts, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         watch_.begin_task(k - begin, end - begin);
-        Rng rng(options_.seed, 0, k);
-        const double part = aspect > 0 ? rng.uniform(0.95, 1.05) : rng.uniform(0.7, 1.4);
-        layouts_[k] = place_greedily(grid_.charts, random_rule(grid_, part * width, rng), watch_);
+        layouts_[k] = place_greedily(grid_.charts, random_rule(grid_, options_.box_aspect, Rng(options_.seed, 0, k)), watch_);
       }
     });
     rank();
@@ -195,13 +167,11 @@ class Search {
     parallel_ranges(count, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         watch_.begin_task(k - begin, end - begin);
-        const CompactionOptions compaction{2 * grid_.cell, [&] { watch_.poll(0); }};
-        compacted[k] = compact(outlines_, placements_of(grid_, layouts_[k]), options_, compaction);
+        const CompactionOptions options{options_.gap, options_.box_aspect, 2 * grid_.cell, [&] { watch_.poll(0); }};
+        compacted[k] = compact(outlines_, placements_of(grid_, layouts_[k]), options);
       }
     });
-    for (auto& placements : compacted) {
-      if (!placements.empty()) offer(std::move(placements), INFINITY);
-    }
+    for (auto& placements : compacted) offer(std::move(placements));
   }
 
   const std::vector<Outline>& outlines_;
@@ -218,15 +188,7 @@ class Search {
 }  // namespace
 
 std::vector<Placement> search_on_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options) {
-  // A first guess of the box: the charts fill three quarters of it.
-  const double aspect = options.box_aspect > 0 ? options.box_aspect : 1;
-  Vec2 box = std::sqrt(area / 0.75 / aspect) * Vec2(aspect, 1);
-  for (double more = 1;; more += 0.01) {
-    Search search(outlines, area, more * options.gap_in(box), options);
-    std::vector<Placement> placements = search.run();
-    if (!placements.empty()) return placements;
-    box = search.grid_box();
-  }
+  return Search(outlines, area, options).run();
 }
 
 }  // namespace atlas_refine
