@@ -5,6 +5,7 @@
 //   auto result = atlas_refine::refine(atlas, options);   // result.corner_uvs replaces atlas.corner_uvs
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,8 +19,12 @@
 
 namespace atlas_refine {
 
-/// Where new seams may come from. None: charts bend inside a shrinking box (the squeeze), no seam is added.
-enum class Seams { None };
+/// Where new seams may come from. None: charts bend inside a shrinking box (the squeeze), no seam is added. Rectangles: the
+/// paper's road; charts become axis-aligned and are cut into rectangles along motorcycle trails (sections 3.1 and 3.2).
+enum class Seams { None, Rectangles };
+
+/// What E_d is measured against while it is reduced (section 3.4, "Distortion type"): the surface, or the input's UVs.
+enum class Reference { Surface, Input };
 
 /// Which relative scale the charts get. Equal: one texel density for the whole surface, as eq. (9) measures E_d.
 /// Keep: each chart keeps the scale it has in the input.
@@ -38,6 +43,14 @@ struct Gap {
   double length(const Vec2& box) const { return value * (unit == Unit::BoxDiagonal ? box.norm() : box.maxCoeff()); }
 };
 
+/// What only Seams::Rectangles reads.
+struct RectangleOptions {
+  double sigma = 0.004;      ///< eq. (3): width of the boundary smoothing / length of the chart's boundary, in (0, 0.1]
+  int candidates = 500;      ///< layouts that are packed and scored, N_motor of section 3.2, in [1, 1000000]
+  double omega = 0.1;        ///< eq. (11): what boundary length costs against PE, in [0, 1]
+  bool until_bound = false;  ///< reduce distortion until the bound stops it, not only to the input's E_d (Fig. 13)
+};
+
 struct RefineOptions {
   double pe_bound = 0.80;  ///< in (0, 1); reached or the call throws BoundNotReached
   Seams seams = Seams::None;
@@ -47,12 +60,16 @@ struct RefineOptions {
   bool best_effort = false;              ///< return the best valid atlas found instead of throwing BoundNotReached
   Density density = Density::Equal;
   Stored stored = Stored::Double;
+  RectangleOptions rectangles;
+  Reference reference = Reference::Surface;
+  std::vector<double> importance;  ///< one weight > 0 per face for its part in E_d (section 4, "Local control"); empty = all 1
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0 = as many as the machine has; the result does not depend on it
 };
 
-/// What had to be done, the least of these that holds the bound.
-enum class Intervention { Unchanged, Moved, Squeezed };
+/// What had to be done: with Seams::None the least of the first three that holds the bound, with Seams::Rectangles the first or
+/// the last.
+enum class Intervention { Unchanged, Moved, Squeezed, Cut };
 const char* to_string(Intervention intervention);
 
 struct ChartReport {
@@ -69,8 +86,25 @@ struct StageTime {
   double seconds = 0;
 };
 
+/// A vertex that was added: a point of one input face, given by three of its corners.
+struct NewVertex {
+  std::array<int, 3> corners;  ///< input corners, all of one face
+  Vec3 weights;                ///< >= 0, sum 1; on an edge of the face the third one is 0
+};
+
+/// The mesh after cutting. The input's vertices come first, unchanged; faces that no cut crosses keep their corners, and gain one
+/// where a new vertex lies on one of their edges. Faces are ordered by the input face they are part of.
+struct CutMesh {
+  std::vector<int> face_offsets;              ///< as Atlas::face_offsets
+  std::vector<int> corner_vertices;           ///< as Atlas::corner_vertices; input vertices, then new ones
+  std::vector<int> face_sources;              ///< one per face: the input face it is part of
+  std::vector<NewVertex> new_vertices;        ///< vertex k of them has the index (input vertices + k)
+  std::vector<std::array<int, 2>> new_seams;  ///< edges (vertex pairs) that were cut, each once
+};
+
 struct RefineResult {
-  std::vector<Vec2> corner_uvs;  ///< as Atlas::corner_uvs; the input's own values, bit for bit, where Unchanged
+  std::vector<Vec2> corner_uvs;  ///< one per corner of `cut` or, without it, of the input; its own, bit for bit, where Unchanged
+  std::optional<CutMesh> cut;    ///< where faces were divided or added seams run: never with Seams::None
   Intervention intervention = Intervention::Unchanged;
   bool bound_met = false;  ///< false only with best_effort
   Measures before;
@@ -84,7 +118,7 @@ struct RefineResult {
   std::vector<StageTime> timings;
 };
 
-/// Brings `atlas` to `options.pe_bound`. Only UVs change; faces, corners and their order are the input's.
+/// Brings `atlas` to `options.pe_bound`. With Seams::None only UVs change; faces, corners and their order are the input's.
 /// Throws RefineError: BadOption, BadInput, BoundNotReached, NotCertified, Cancelled. Nothing is modified on failure.
 /// The UVs of a changed atlas lie in [0, 1]^2, box corner at the origin, longer box side 1.
 RefineResult refine(const Atlas& atlas, const RefineOptions& options = {}, const ProgressFn& progress = {},

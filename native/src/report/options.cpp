@@ -24,6 +24,10 @@ void check_options(const RefineOptions& options) {
   require(!options.gap || (options.gap->value >= 0 && options.gap->value <= 0.1), "the gap must lie in [0, 0.1] of the box");
   require(!options.max_distortion || (*options.max_distortion >= 1 && std::isfinite(*options.max_distortion)),
           "the largest distortion must be a finite number of at least 1");
+  const RectangleOptions& rectangles = options.rectangles;
+  require(rectangles.sigma > 0 && rectangles.sigma <= 0.1, "sigma must lie between 0 (excluded) and 0.1");
+  require(rectangles.candidates >= 1 && rectangles.candidates <= 1000000, "the candidates must number 1 to 1000000");
+  require(rectangles.omega >= 0 && rectangles.omega <= 1, "omega must lie in [0, 1]");
   require(options.threads >= 0 && options.threads <= 1024, "the number of threads must lie in [0, 1024]");
 }
 

@@ -37,6 +37,8 @@ const char* to_string(Intervention intervention) {
       return "moved";
     case Intervention::Squeezed:
       return "squeezed";
+    case Intervention::Cut:
+      return "cut";
   }
   return "unknown";
 }
