@@ -71,14 +71,28 @@ Atlas to_atlas(const AtlasArrays& arrays, std::string name) {
   return atlas;
 }
 
-py::array_t<double> to_array(const std::vector<Vec2>& uvs) {
-  py::array_t<double> array({static_cast<py::ssize_t>(uvs.size()), py::ssize_t{2}});
-  auto rows = array.mutable_unchecked<2>();
-  for (std::size_t i = 0; i < uvs.size(); ++i) {
-    rows(static_cast<py::ssize_t>(i), 0) = uvs[i].x();
-    rows(static_cast<py::ssize_t>(i), 1) = uvs[i].y();
+std::vector<double> to_weights(const py::object& object, const char* name) {
+  const auto bad_option = [&](const std::string& message) {
+    return RefineError(ErrorCode::BadOption, "options", std::string(name) + message);
+  };
+  const py::array array = py::array::ensure(object);
+  if (!array) {
+    PyErr_Clear();
+    throw bad_option(" is not an array");
   }
-  return array;
+  const char kind = array.dtype().kind();
+  if (kind != 'f' && kind != 'i' && kind != 'u') throw bad_option(" must hold numbers");
+  if (array.ndim() != 1) throw bad_option(" must have shape (faces,), not " + shape_text(array));
+  const auto values = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
+  return {values.data(), values.data() + values.size()};
+}
+
+py::array_t<double> to_array(const std::vector<Vec2>& uvs) {
+  return table<double>(uvs.size(), 2, [&](std::size_t row, int column) { return uvs[row][column]; });
+}
+
+py::array_t<std::int32_t> to_array(const std::vector<int>& indices) {
+  return py::array_t<std::int32_t>(static_cast<py::ssize_t>(indices.size()), indices.data());
 }
 
 }  // namespace atlas_refine::python

@@ -3,6 +3,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,24 @@ struct AtlasArrays {
 /// Copies the arrays. Throws RefineError(BadInput) that names the array whose shape or type does not fit.
 Atlas to_atlas(const AtlasArrays& arrays, std::string name);
 
+/// One number for each face, by which options say it; the length is the library's to check. Throws RefineError(BadOption).
+std::vector<double> to_weights(const pybind11::object& object, const char* name);
+
+/// A new (rows, columns) array of what `entry(row, column)` gives.
+template <typename Number, typename Entry>
+pybind11::array_t<Number> table(std::size_t rows, int columns, Entry entry) {
+  pybind11::array_t<Number> array({static_cast<pybind11::ssize_t>(rows), static_cast<pybind11::ssize_t>(columns)});
+  auto cells = array.template mutable_unchecked<2>();
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) cells(static_cast<pybind11::ssize_t>(row), column) = entry(row, column);
+  }
+  return array;
+}
+
 /// A new (n, 2) float64 array.
 pybind11::array_t<double> to_array(const std::vector<Vec2>& uvs);
+
+/// A new (n,) int32 array.
+pybind11::array_t<std::int32_t> to_array(const std::vector<int>& indices);
 
 }  // namespace atlas_refine::python

@@ -19,7 +19,8 @@ namespace atlas_refine::python {
 namespace {
 
 const std::string kRefineKeywords =
-    "pe_bound seams box_aspect gap gap_unit max_distortion best_effort density stored seed threads name";
+    "pe_bound seams box_aspect gap gap_unit max_distortion best_effort density stored sigma candidates omega until_bound "
+    "reference importance seed threads name";
 
 constexpr const char* kArraysDoc = R"(
 
@@ -31,7 +32,8 @@ corner_uvs       (C, 2) float64, UV units; equal values at both ends of a shared
 
 constexpr const char* kRefineOptionsDoc = R"(
 pe_bound         packing efficiency to reach, in (0, 1); default 0.8
-seams            "none": charts bend, no seam is added
+seams            "none" (default): charts bend, no seam is added; "rectangles": charts become axis-aligned and are cut into
+                 rectangles (Liu et al. 2019), result.cut is the mesh that corner_uvs belong to
 box_aspect       width / height of the box; 0 (default) = free, 1 = square
 gap              smallest distance between charts as a fraction of gap_unit, hard; None (default) = automatic: 0.0025 of the
                  diagonal, reduced only as far as the bound needs
@@ -39,6 +41,12 @@ gap_unit         "diagonal" of the box (default) or its "long_side" (N texels of
 max_distortion   largest E_d allowed (1 = isometric), or None
 best_effort      return the best valid atlas where the bound is not reached (bound_met says so); default False
 density          "equal" (default): one scale for all charts; "keep": each chart keeps its own
+sigma            of "rectangles": width of the boundary smoothing as a part of a chart's boundary, in (0, 0.1]; default 0.004
+candidates       of "rectangles": layouts that are packed and scored, at least 1; default 500
+omega            of "rectangles": what added boundary costs against packing efficiency, in [0, 1]; default 0.1
+until_bound      of "rectangles": reduce distortion until the bound stops it, not only to the input's; default False
+reference        what E_d is measured against while it is reduced: "surface" (default) or "input", its UVs
+importance       (F,) numbers > 0: each face's weight in E_d; None (default) = all 1
 stored           "double" (default) or "float32": the format you will store; the certificate holds for it
 seed             default 1; the same seed gives the same bits on any number of threads
 threads          0 (default) = as many as the machine has

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "arrays.h"
+
 namespace py = pybind11;
 
 namespace atlas_refine::python {
@@ -44,7 +46,19 @@ const std::map<std::string, Reader>& readers() {
       {"pe_bound", [](Keywords& k, H v, S s) { k.options.pe_bound = number(v, s); }},
       {"seams",
        [](Keywords& k, H v, S s) {
-         k.options.seams = choice<Seams>(v, s, {{"none", Seams::None}});
+         k.options.seams = choice<Seams>(v, s, {{"none", Seams::None}, {"rectangles", Seams::Rectangles}});
+       }},
+      {"sigma", [](Keywords& k, H v, S s) { k.options.rectangles.sigma = number(v, s); }},
+      {"candidates", [](Keywords& k, H v, S s) { k.options.rectangles.candidates = read<int>(v, s, "a whole number"); }},
+      {"omega", [](Keywords& k, H v, S s) { k.options.rectangles.omega = number(v, s); }},
+      {"until_bound", [](Keywords& k, H v, S s) { k.options.rectangles.until_bound = read<bool>(v, s, "True or False"); }},
+      {"reference",
+       [](Keywords& k, H v, S s) {
+         k.options.reference = choice<Reference>(v, s, {{"surface", Reference::Surface}, {"input", Reference::Input}});
+       }},
+      {"importance",
+       [](Keywords& k, H v, S s) {
+         if (!v.is_none()) k.options.importance = to_weights(py::reinterpret_borrow<py::object>(v), s.c_str());
        }},
       {"box_aspect", [](Keywords& k, H v, S s) { k.options.box_aspect = number(v, s); }},
       {"gap",

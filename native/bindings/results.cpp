@@ -109,9 +109,30 @@ void bind_measures(py::module_& module) {
       .field("crossings", &Validity::crossings);
 }
 
+void bind_cut_mesh(py::module_& module) {
+  ValueClass<CutMesh>(module, "CutMesh", "The mesh after cutting: its faces, the new vertices, where both come from, new seams.")
+      .property("face_offsets", [](const CutMesh& m) { return to_array(m.face_offsets); })
+      .property("corner_vertices", [](const CutMesh& m) { return to_array(m.corner_vertices); })
+      .property("face_sources", [](const CutMesh& m) { return to_array(m.face_sources); })
+      .property("new_vertex_corners",
+                [](const CutMesh& m) {
+                  const auto& vertices = m.new_vertices;
+                  return table<std::int32_t>(vertices.size(), 3, [&](std::size_t i, int k) { return vertices[i].corners[k]; });
+                })
+      .property("new_vertex_weights",
+                [](const CutMesh& m) {
+                  const auto& vertices = m.new_vertices;
+                  return table<double>(vertices.size(), 3, [&](std::size_t i, int k) { return vertices[i].weights[k]; });
+                })
+      .property("new_seams", [](const CutMesh& m) {
+        return table<std::int32_t>(m.new_seams.size(), 2, [&](std::size_t i, int k) { return m.new_seams[i][k]; });
+      });
+}
+
 void bind_refine_result(py::module_& module) {
   ValueClass<RefineResult>(module, "RefineResult", "A refined atlas with its certificate's figures.")
       .property("corner_uvs", [](const RefineResult& r) { return to_array(r.corner_uvs); })
+      .field("cut", &RefineResult::cut)
       .property("intervention", [](const RefineResult& r) { return to_string(r.intervention); })
       .field("bound_met", &RefineResult::bound_met)
       .field("before", &RefineResult::before)
@@ -161,6 +182,7 @@ void bind_results(py::module_& module) {
       .field("distortion_after", &ChartReport::distortion_after)
       .field("stretch_max", &ChartReport::stretch_max);
   bind_measures(module);
+  bind_cut_mesh(module);
   bind_refine_result(module);
 }
 

@@ -47,6 +47,17 @@ def test_a_bound_out_of_range(pe_bound):
         {"density": "even"},
         {"stored": "half"},
         {"seams": "many"},
+        {"reference": "paper"},
+        {"sigma": 0.0},
+        {"sigma": -0.1},
+        {"sigma": 0.2},
+        {"sigma": float("nan")},
+        {"candidates": 0},
+        {"omega": 1.5},
+        {"omega": -0.1},
+        {"importance": "high"},
+        {"importance": [[1.0] * 64]},
+        {"importance": 2.0},
         {"gap": 0.01, "gap_unit": "px"},
     ],
 )
@@ -116,7 +127,8 @@ def test_a_flipped_face_is_refused_with_its_chart_and_face():
 
 @pytest.mark.parametrize(
     "options",
-    [{"bound": 0.8}, {"pe_bound": "high"}, {"pe_bound": None}, {"seed": -1}, {"progress": 3}, {"threads": 1.5}, {"name": 1}],
+    [{"bound": 0.8}, {"pe_bound": "high"}, {"pe_bound": None}, {"seed": -1}, {"progress": 3}, {"threads": 1.5}, {"name": 1}]
+    + [{"candidates": 2.5}, {"sigma": "wide"}, {"until_bound": "yes"}],
 )
 def test_what_is_no_argument_at_all_is_a_type_error(options):
     with pytest.raises(TypeError, match=next(iter(options))):

@@ -27,6 +27,7 @@ def test_an_atlas_at_the_bound_comes_back_bit_for_bit():
     arrays = shapes.tight()
     result = atlas_refine.refine(*arrays, pe_bound=0.9)
     assert result.intervention == "unchanged"
+    assert result.cut is None
     assert result.bound_met
     assert result.corner_uvs.tobytes() == arrays[3].tobytes()
 
@@ -155,7 +156,7 @@ def test_what_progress_raises_comes_out():
 def test_a_result_shows_all_its_figures():
     result = atlas_refine.refine(*shapes.tight())
     fields = result.as_dict()
-    assert {"corner_uvs", "intervention", "bound_met", "before", "after", "gap", "price", "iterations"} < set(fields)
+    assert {"corner_uvs", "cut", "intervention", "bound_met", "before", "after", "gap", "price", "iterations"} < set(fields)
     assert {"charts", "repairs", "warnings", "timings"} < set(fields)
     assert repr(result.after).startswith("Measures(pe=")
     with pytest.raises(AttributeError):

@@ -3,12 +3,16 @@
     result = atlas_refine.refine(positions, face_offsets, corner_vertices, corner_uvs, pe_bound=0.85)
     result.corner_uvs      # (C, 2) float64, replaces the input's
 
+    result = atlas_refine.refine(positions, face_offsets, corner_vertices, corner_uvs, seams="rectangles")
+    result.cut             # the divided mesh that the UVs belong to, None where no face was divided
+
 Arrays in and out are NumPy's; help(atlas_refine.refine) lists shapes, units, options and errors.
 """
 
 from ._atlas_refine import (
     AtlasRefineError,
     ChartReport,
+    CutMesh,
     Gap,
     Job,
     Measures,
@@ -25,6 +29,7 @@ from ._atlas_refine import (
 __all__ = [
     "AtlasRefineError",
     "ChartReport",
+    "CutMesh",
     "Gap",
     "Job",
     "Measures",

@@ -95,11 +95,31 @@ class ChartReport:
     def stretch_max(self) -> float: ...  # after, at the atlas' global scale
     def as_dict(self) -> dict[str, Any]: ...
 
+class CutMesh:
+    """The input's vertices come first, unchanged, then the new ones. A face that no cut crosses keeps its corners and gains one
+    where a new vertex lies on one of its edges. Every array is new each time."""
+
+    @property
+    def face_offsets(self) -> NDArray[np.int32]: ...  # (F' + 1,), from 0
+    @property
+    def corner_vertices(self) -> NDArray[np.int32]: ...  # (C',)
+    @property
+    def face_sources(self) -> NDArray[np.int32]: ...  # (F',), not decreasing: the input face that each face is part of
+    @property
+    def new_vertex_corners(self) -> NDArray[np.int32]: ...  # (N, 3): input corners, all of one face
+    @property
+    def new_vertex_weights(self) -> NDArray[np.float64]: ...  # (N, 3): >= 0, sum 1; the third is 0 on an edge of the face
+    @property
+    def new_seams(self) -> NDArray[np.int32]: ...  # (S, 2): the edges that were cut as vertex pairs, each once
+    def as_dict(self) -> dict[str, Any]: ...
+
 class RefineResult:
     @property
-    def corner_uvs(self) -> NDArray[np.float64]: ...  # (C, 2), a new array each time
+    def corner_uvs(self) -> NDArray[np.float64]: ...  # (C, 2) of `cut` or, without it, of the input; a new array
     @property
-    def intervention(self) -> Literal["unchanged", "moved", "squeezed"]: ...
+    def cut(self) -> CutMesh | None: ...  # None where no face was divided
+    @property
+    def intervention(self) -> Literal["unchanged", "moved", "squeezed", "cut"]: ...
     @property
     def bound_met(self) -> bool: ...  # False only with best_effort
     @property
@@ -138,7 +158,7 @@ def refine(
     corner_uvs: ArrayLike,
     *,
     pe_bound: float = 0.8,
-    seams: Literal["none"] = "none",
+    seams: Literal["none", "rectangles"] = "none",
     box_aspect: float = 0.0,
     gap: float | None = None,
     gap_unit: Literal["diagonal", "long_side"] = "diagonal",
@@ -146,6 +166,12 @@ def refine(
     best_effort: bool = False,
     density: Literal["equal", "keep"] = "equal",
     stored: Literal["double", "float32"] = "double",
+    sigma: float = 0.004,
+    candidates: int = 500,
+    omega: float = 0.1,
+    until_bound: bool = False,
+    reference: Literal["surface", "input"] = "surface",
+    importance: ArrayLike | None = None,
     seed: int = 1,
     threads: int = 0,
     progress: Callable[[Progress], bool | None] | None = None,
@@ -158,7 +184,7 @@ def start(
     corner_uvs: ArrayLike,
     *,
     pe_bound: float = 0.8,
-    seams: Literal["none"] = "none",
+    seams: Literal["none", "rectangles"] = "none",
     box_aspect: float = 0.0,
     gap: float | None = None,
     gap_unit: Literal["diagonal", "long_side"] = "diagonal",
@@ -166,6 +192,12 @@ def start(
     best_effort: bool = False,
     density: Literal["equal", "keep"] = "equal",
     stored: Literal["double", "float32"] = "double",
+    sigma: float = 0.004,
+    candidates: int = 500,
+    omega: float = 0.1,
+    until_bound: bool = False,
+    reference: Literal["surface", "input"] = "surface",
+    importance: ArrayLike | None = None,
     seed: int = 1,
     threads: int = 0,
     name: str = "",
