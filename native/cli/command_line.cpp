@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 namespace atlas_refine::cli {
 
@@ -64,6 +65,8 @@ class Parser {
     app_.get_formatter()->column_width(34);
     add_files();
     add_goal();
+    add_distortion();
+    add_rectangles();
     add_gap();
     add_running();
     add_measure();
@@ -111,8 +114,12 @@ class Parser {
   }
 
   void add_files() {
-    add("IN.obj", "", "The atlas: an OBJ file with UVs", [this](const Value& v) { line_.input = v.text; });
-    add("-o,--output", "OUT.obj", "Where the result goes: IN with new UVs, everything else as it was",
+    app_.add_option("IN.obj", line_.inputs, "The atlas: an OBJ file with UVs; several files get one atlas together")
+        ->type_name("");
+    add("-o,--output", "OUT.obj|DIR",
+        "Where the result goes: IN with new UVs, everything else as it was; of several files, the folder for files of their "
+        "names, "
+        "which is created where missing",
         [this](const Value& v) { line_.output = v.text; });
     add("--report", "R.json", "Write what was done and measured", [this](const Value& v) { line_.report = v.text; });
     add("--svg", "DIR", "Draw the atlas at each stage with a stretch heat map; DIR is created where missing",
@@ -123,19 +130,61 @@ class Parser {
     RefineOptions& options = line_.options;
     add("--pe-bound", "PE", "Packing efficiency to reach, between 0 and 1 [0.8]",
         [&](const Value& v) { options.pe_bound = v.number_in(0, 1, true, "a number between 0 and 1, both excluded"); });
-    add("--seams", "none", "Where new seams may come from; 'none' adds none [none]", [](const Value& v) {
-      if (v.text != "none") v.refuse("must be 'none'");
-    });
+    add("--seams", "none|rectangles",
+        "Where new seams may come from: none are added, or charts are cut into rectangles (Liu et al. 2019) [none]",
+        [&](const Value& v) {
+          if (v.text != "none" && v.text != "rectangles") v.refuse("must be 'none' or 'rectangles'");
+          options.seams = v.text == "none" ? Seams::None : Seams::Rectangles;
+        });
     add("--aspect", "free|square|W:H", "Shape of the box PE is measured in [free]",
         [&](const Value& v) { options.box_aspect = aspect(v); });
-    add("--max-distortion", "E_d", "Largest distortion E_d allowed, 1 = isometric [no limit]",
-        [&](const Value& v) { options.max_distortion = v.number_in(1, HUGE_VAL, false, "a number of at least 1"); });
     app_.add_flag("--best-effort", options.best_effort, "Write the best valid atlas found even if it misses the bound")
         ->disable_flag_override();
     add("--density", "equal|keep", "One scale for all charts, or each chart's own as in IN [equal]", [&](const Value& v) {
       if (v.text != "equal" && v.text != "keep") v.refuse("must be 'equal' or 'keep'");
       options.density = v.text == "keep" ? Density::Keep : Density::Equal;
     });
+  }
+
+  void add_distortion() {
+    RefineOptions& options = line_.options;
+    add("--max-distortion", "E_d", "Largest distortion E_d allowed, 1 = isometric [no limit]",
+        [&](const Value& v) { options.max_distortion = v.number_in(1, HUGE_VAL, false, "a number of at least 1"); });
+    add("--reference", "surface|input", "What distortion is reduced against: the surface, or the UVs of IN [surface]",
+        [&](const Value& v) {
+          if (v.text != "surface" && v.text != "input") v.refuse("must be 'surface' or 'input'");
+          options.reference = v.text == "input" ? Reference::Input : Reference::Surface;
+        });
+    add("--importance", "FILE", "One positive number for each face of IN, in its order: what the face counts in E_d [all 1]",
+        [this](const Value& v) { line_.importance = v.text; });
+  }
+
+  /// An option that only --seams rectangles reads.
+  void add_for_rectangles(const char* name, const char* unit, const std::string& help, const Setter& set) {
+    add(name, unit, "With rectangles: " + help, [this, name, set](const Value& v) {
+      set(v);
+      first_for_rectangles_ = first_for_rectangles_ ? first_for_rectangles_ : name;
+    });
+  }
+
+  void add_rectangles() {
+    RectangleOptions& options = line_.options.rectangles;
+    add_for_rectangles("--sigma", "FRACTION", "width of the boundary smoothing / length of the chart's boundary [0.004]",
+                       [&](const Value& v) {
+                         constexpr const char* expected = "a number above 0 and at most 0.1";
+                         options.sigma = v.number_in(0, 0.1, false, expected);
+                         if (options.sigma == 0) v.refuse(std::string("must be ") + expected);
+                       });
+    add_for_rectangles("--candidates", "N", "layouts that are packed and scored [500]", [&](const Value& v) {
+      constexpr const char* expected = "a whole number from 1 to 1000000";
+      options.candidates = v.as<int>(expected);
+      if (options.candidates < 1 || options.candidates > 1000000) v.refuse(std::string("must be ") + expected);
+    });
+    add_for_rectangles("--omega", "W", "what boundary length costs against PE, from 0 to 1 [0.1]",
+                       [&](const Value& v) { options.omega = v.number_in(0, 1, false, "a number from 0 to 1"); });
+    until_bound_ = app_.add_flag("--until-bound", options.until_bound,
+                                 "With rectangles: reduce distortion until the bound stops it, not only to that of IN");
+    until_bound_->disable_flag_override();
   }
 
   void add_gap() {
@@ -169,7 +218,7 @@ class Parser {
 
   void add_measure() {
     measure_ = app_.add_subcommand("measure", "Print the measures of FILE and whether its atlas is valid; changes nothing");
-    add(*measure_, "FILE", "", "The atlas: an OBJ file with UVs", [this](const Value& v) { line_.input = v.text; });
+    add(*measure_, "FILE", "", "The atlas: an OBJ file with UVs", [this](const Value& v) { line_.inputs = {v.text}; });
     add(*measure_, "--aspect", "free|square|W:H", "Shape of the box PE is measured in [free]",
         [this](const Value& v) { line_.options.box_aspect = aspect(v); });
     measure_->add_flag("--json", line_.json, "Print JSON instead of a table")->disable_flag_override();
@@ -178,11 +227,30 @@ class Parser {
   void finish() {
     if (measure_->parsed()) {
       line_.job = CommandLine::Job::Measure;
-      if (line_.input.empty()) throw UsageError("FILE: missing; say atlas-refine measure FILE");
+      if (line_.inputs.empty()) throw UsageError("FILE: missing; say atlas-refine measure FILE");
       return;
     }
-    if (line_.input.empty()) throw UsageError("IN.obj: missing; say atlas-refine IN.obj -o OUT.obj");
+    if (line_.inputs.empty()) throw UsageError("IN.obj: missing; say atlas-refine IN.obj -o OUT.obj");
     if (line_.output.empty()) throw UsageError("--output: missing; say where the result goes with -o OUT.obj");
+    check_names();
+    if (until_bound_->count() > 0 && !first_for_rectangles_) first_for_rectangles_ = "--until-bound";
+    if (first_for_rectangles_ && line_.options.seams != Seams::Rectangles)
+      throw UsageError(std::string(first_for_rectangles_) + ": needs --seams rectangles");
+    finish_gap();
+  }
+
+  /// The results of a collection must not overwrite each other.
+  void check_names() const {
+    std::set<std::filesystem::path> names;
+    for (const auto& input : line_.inputs) {
+      if (!line_.is_collection()) return;
+      if (!input.has_filename()) throw UsageError(input.string() + ": is not the name of a file");
+      if (!names.insert(input.filename()).second)
+        throw UsageError(input.string() + ": a second file of this name, results would overwrite each other");
+    }
+  }
+
+  void finish_gap() {
     if (gap_texels_ && line_.options.gap) throw UsageError("--gap-px: cannot be combined with --gap");
     if (gap_texels_ && !texture_size_) throw UsageError("--gap-px: needs --texture-size");
     if (texture_size_ && !gap_texels_) throw UsageError("--texture-size: needs --gap-px");
@@ -200,9 +268,11 @@ class Parser {
   CommandLine line_;
   std::optional<double> gap_texels_;
   std::optional<unsigned> texture_size_;
+  const char* first_for_rectangles_ = nullptr;  // the first such option on the line
+  CLI::Option* until_bound_ = nullptr;
   CLI::App* measure_ = nullptr;
   CLI::App app_{
-      "Brings the UV atlas of an OBJ file to a packing efficiency bound without a new seam.\n"
+      "Brings the UV atlas of OBJ files to a packing efficiency bound, without a new seam or with charts cut into rectangles.\n"
       "Exit codes: 0 done, 2 usage, 3 input cannot be used, 4 bound not reached, 130 Ctrl-C.",
       "atlas-refine"};
 };

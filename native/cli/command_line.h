@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "atlas_refine/refine.h"
 
@@ -12,13 +13,18 @@ namespace atlas_refine::cli {
 struct CommandLine {
   enum class Job { Refine, Measure, PrintText };
   Job job = Job::Refine;
-  std::filesystem::path input;
-  std::filesystem::path output;
+  std::vector<std::filesystem::path> inputs;  ///< several: a collection, one atlas
+  std::filesystem::path output;               ///< of a collection: the folder
   std::optional<std::filesystem::path> report;
   std::optional<std::filesystem::path> svg_folder;
+  std::optional<std::filesystem::path> importance;
   RefineOptions options;
   bool json = false;  ///< measure: JSON instead of a table
   std::string text;   ///< PrintText: the help or the version
+
+  bool is_collection() const { return inputs.size() > 1; }
+  /// Where the result of input `k` goes.
+  std::filesystem::path output_of(int k) const { return is_collection() ? output / inputs[k].filename() : output; }
 };
 
 /// An option or argument that cannot be understood; what() is "<thing>: <what is wrong>".

@@ -1,15 +1,19 @@
-// The program atlas-refine: an OBJ file in, the same file with a better atlas out.
+// The program atlas-refine: OBJ files in, the same files with a better atlas out.
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <list>
 #include <memory>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "atlas_refine/refine.h"
+#include "collection.h"
 #include "command_line.h"
+#include "importance_file.h"
+#include "input_file.h"
 #include "interrupt.h"
-#include "obj_file.h"
 #include "output_file.h"
 #include "progress_bar.h"
 #include "report.h"
@@ -48,22 +52,21 @@ int exit_code_of(ErrorCode code) {
 }
 
 /// Names the file, and the line where the library names a face.
-int complain(const CommandLine& line, const RefineError& error, const ObjFile* file) {
+int complain(const RefineError& error, const Collection& files) {
   if (error.code() == ErrorCode::Cancelled) return exit_interrupted;
   if (error.code() == ErrorCode::BadOption) return complain(error.what(), exit_usage);
-  std::string where = line.input.string() + ": ";
-  if (file && error.face() >= 0 && error.face() < file->atlas().face_count())
-    where += "line " + std::to_string(file->line_of_face(error.face())) + ": ";
-  return complain(where + error.what(), exit_code_of(error.code()));
+  return complain(files.place_of_face(error.face()) + ": " + error.what(), exit_code_of(error.code()));
 }
 
 void check_outputs(const CommandLine& line) {
-  check_writable(line.output);
-  if (line.report) {
-    check_writable(*line.report);
-    if (same_file(*line.report, line.output))
+  const bool folder_missing = line.is_collection() && !std::filesystem::exists(line.output);
+  if (line.is_collection()) check_folder_creatable(line.output);
+  for (int k = 0; k < static_cast<int>(line.inputs.size()) && !folder_missing; ++k) check_writable(line.output_of(k));
+  if (line.report) check_writable(*line.report);
+  for (int k = 0; k < static_cast<int>(line.inputs.size()) && line.report; ++k) {
+    if (same_file(*line.report, line.output_of(k)))
       throw OutputError(*line.report, "is the output already, not a place for the report");
-    if (same_file(*line.report, line.input)) throw OutputError(*line.report, "is the input, not a place for the report");
+    if (same_file(*line.report, line.inputs[k])) throw OutputError(*line.report, "is the input, not a place for the report");
   }
   if (line.svg_folder) check_folder_creatable(*line.svg_folder);
 }
@@ -85,54 +88,64 @@ RefineResult refine_with_progress(const Atlas& atlas, const RefineOptions& optio
   return refine(atlas, options, report_progress, debug);
 }
 
-/// The result and the report appear together, or neither does.
-void write_outputs(const CommandLine& line, const ObjFile& file, const RefineResult& result, Times& times) {
+/// The results and the report appear together, or none does.
+std::vector<FileReport> write_outputs(const CommandLine& line, const Collection& files, const RefineResult& result,
+                                      Times& times) {
   const InterruptScope ask(OnInterrupt::Ask);
   const auto start = std::chrono::steady_clock::now();
-  const bool unchanged = result.intervention == Intervention::Unchanged;
-  PendingFile output(line.output, unchanged ? file.text() : file.text_with_uvs(result.corner_uvs));
+  std::unique_ptr<PendingFolder> folder;
+  if (line.is_collection()) folder = std::make_unique<PendingFolder>(line.output);
+  std::list<PendingFile> pending;
+  std::vector<FileReport> reports;
+  for (int k = 0; k < files.file_count(); ++k) {
+    const Collection::Output output = files.output(k, result);
+    pending.emplace_back(line.output_of(k), output.text);
+    reports.push_back({files.path(k), line.output_of(k), files.file(k).atlas().face_count(), output.added_faces,
+                       static_cast<int>(files.file(k).atlas().positions.size()), output.added_vertices});
+  }
   times.write = seconds_since(start);
-  std::unique_ptr<PendingFile> report;
-  if (line.report) report = std::make_unique<PendingFile>(*line.report, json_report(line, result, times));
+  if (line.report) pending.emplace_back(*line.report, json_report(line, reports, result, times));
   if (interrupted()) throw RefineError(ErrorCode::Cancelled, "write", "cancelled");
-  output.commit();
-  if (report) report->commit();
+  commit_together(pending);
+  if (folder) folder->keep();
+  return reports;
 }
 
-int run_refine(const CommandLine& line) {
+int run_refine(CommandLine line) {
   check_outputs(line);
-  std::unique_ptr<ObjFile> file;
+  Collection files;
   try {
     Times times;
     auto start = std::chrono::steady_clock::now();
-    file = std::make_unique<ObjFile>(ObjFile::read(line.input));
+    for (const auto& input : line.inputs) files.add(input);
+    if (line.importance) line.options.importance = read_importance(*line.importance, files.atlas().face_count());
     times.read = seconds_since(start);
 
     const InterruptScope ask_and_exit(OnInterrupt::AskAndExit);
     const auto debug = pictures(line);
     start = std::chrono::steady_clock::now();
-    const RefineResult result = refine_with_progress(file->atlas(), line.options, debug.get());
+    const RefineResult result = refine_with_progress(files.atlas(), line.options, debug.get());
     times.refine = seconds_since(start);
-    write_outputs(line, *file, result, times);
-    std::fputs(summary(result, times).c_str(), stdout);
+    const std::vector<FileReport> reports = write_outputs(line, files, result, times);
+    std::fputs(summary(reports, result, times).c_str(), stdout);
     return exit_done;
   } catch (const RefineError& error) {
-    return complain(line, error, file.get());
+    return complain(error, files);
   }
 }
 
 int run_measure(const CommandLine& line) {
-  std::unique_ptr<ObjFile> file;
+  Collection files;
   try {
-    file = std::make_unique<ObjFile>(ObjFile::read(line.input));
-    const Measures measures = measure(file->atlas(), line.options.box_aspect);
-    const Validity validity = validate(file->atlas());
+    files.add(line.inputs.front());
+    const Measures measures = measure(files.atlas(), line.options.box_aspect);
+    const Validity validity = validate(files.atlas());
     const std::string text =
-        line.json ? measures_json(line.input.string(), measures, validity) : measures_table(measures, validity);
+        line.json ? measures_json(line.inputs.front().string(), measures, validity) : measures_table(measures, validity);
     std::fputs(text.c_str(), stdout);
     return exit_done;
   } catch (const RefineError& error) {
-    return complain(line, error, file.get());
+    return complain(error, files);
   }
 }
 
@@ -161,6 +174,8 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const UsageError& error) {
     return complain(error.what(), exit_usage);
+  } catch (const InputError& error) {
+    return complain(error.path.string() + ": " + error.what(), exit_bad_input);
   } catch (const OutputError& error) {
     return complain(error.path.string() + ": " + error.what(), exit_usage);
   } catch (const std::exception& error) {

@@ -3,49 +3,23 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstring>
-#include <fstream>
-#include <system_error>
 
 #include "atlas_refine/error.h"
+#include "input_file.h"
+#include "number_text.h"
+#include "obj_cut_writer.h"
 #include "obj_parser.h"
 
 namespace atlas_refine::cli {
 
-namespace {
-
-[[noreturn]] void refuse(const std::string& what) { throw RefineError(ErrorCode::BadInput, "read", what); }
-
-std::string read_text(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) refuse("does not exist");
-  if (error) refuse("cannot be read: " + error.message());
-  if (std::filesystem::is_directory(status)) refuse("is a directory, not an OBJ file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse(std::string("cannot be read: ") + std::strerror(errno));
-  std::string text;
-  if (const auto size = std::filesystem::file_size(path, error); !error) text.reserve(size);
-  constexpr std::size_t block = 1 << 20;
-  while (file) {
-    const std::size_t old_size = text.size();
-    text.resize(old_size + block);
-    file.read(text.data() + old_size, block);
-    text.resize(old_size + static_cast<std::size_t>(file.gcount()));
+ObjFile ObjFile::read(const std::filesystem::path& path) {
+  std::string text = read_text(path, "an OBJ file");
+  try {
+    return parse(std::move(text));
+  } catch (const RefineError& error) {
+    throw InputError(path, error.what());
   }
-  if (file.bad()) refuse("cannot be read");
-  return text;
 }
-
-void append_number(std::string& out, double value) {
-  char digits[32];
-  const auto result = std::to_chars(digits, digits + sizeof digits, value);
-  out.append(digits, result.ptr);
-}
-
-}  // namespace
-
-ObjFile ObjFile::read(const std::filesystem::path& path) { return parse(read_text(path)); }
 
 ObjFile ObjFile::parse(std::string text) {
   ObjFile file;
@@ -58,8 +32,17 @@ ObjFile ObjFile::parse(std::string text) {
   return file;
 }
 
+std::string ObjFile::text_with_cut(const CutMesh& cut, const std::vector<Vec2>& corner_uvs) const {
+  return ObjCutWriter(*this, cut, corner_uvs).text();
+}
+
 std::string ObjFile::text_with_uvs(const std::vector<Vec2>& corner_uvs) const {
-  const NewRecords records = weld(corner_uvs);
+  std::vector<UvUse> uses;
+  uses.reserve(corner_uvs.size());
+  for (const UvReference& reference : uv_references_) {
+    if (reference.corner >= 0) uses.push_back({reference.record, corner_uvs[reference.corner], reference.corner});
+  }
+  const NewRecords records = weld(std::move(uses));
   // One value for each record: indices, absolute and relative, mean what they meant.
   const bool renumbered = records.values.size() != uv_records_.size();
   std::string out;
@@ -83,38 +66,26 @@ std::string ObjFile::text_with_uvs(const std::vector<Vec2>& corner_uvs) const {
   return out.append(text_, copied);
 }
 
-// The distinct values of each record's corners in ascending order; a record that no face uses keeps its own.
-ObjFile::NewRecords ObjFile::weld(const std::vector<Vec2>& corner_uvs) const {
-  struct Use {
-    int record;
-    Vec2 uv;
-    int corner;
-    bool operator<(const Use& other) const {
-      if (record != other.record) return record < other.record;
-      if (uv.x() != other.uv.x()) return uv.x() < other.uv.x();
-      return uv.y() < other.uv.y();
-    }
-  };
-  std::vector<Use> uses;
-  uses.reserve(corner_uvs.size());
-  for (const UvReference& reference : uv_references_) {
-    if (reference.corner >= 0) uses.push_back({reference.record, corner_uvs[reference.corner], reference.corner});
-  }
-  std::sort(uses.begin(), uses.end());
-
+// The distinct values of each record's corners in ascending order; a record that no corner uses keeps its own. Corners without
+// a record of the file count as users of one more record behind the last.
+ObjFile::NewRecords ObjFile::weld(std::vector<UvUse> uses) const {
+  std::sort(uses.begin(), uses.end(), [](const UvUse& a, const UvUse& b) {
+    if (a.record != b.record) return a.record < b.record;
+    if (a.uv.x() != b.uv.x()) return a.uv.x() < b.uv.x();
+    return a.uv.y() < b.uv.y();
+  });
   NewRecords result;
-  result.of_corner.resize(corner_uvs.size());
+  result.of_corner.resize(uses.size());
   auto use = uses.begin();
-  for (int record = 0; record < static_cast<int>(uv_records_.size()); ++record) {
+  for (std::size_t record = 0; record <= uv_records_.size(); ++record) {
     const std::size_t first = result.values.size();
     result.first.push_back(static_cast<int>(first));
-    for (; use != uses.end() && use->record == record; ++use) {
+    for (; use != uses.end() && use->record == static_cast<int>(record); ++use) {
       if (result.values.size() == first || result.values.back() != use->uv) result.values.push_back(use->uv);
       result.of_corner[use->corner] = static_cast<int>(result.values.size()) - 1;
     }
-    if (result.values.size() == first) result.values.push_back(uv_records_[record].value);
+    if (result.values.size() == first && record < uv_records_.size()) result.values.push_back(uv_records_[record].value);
   }
-  result.first.push_back(static_cast<int>(result.values.size()));
   return result;
 }
 

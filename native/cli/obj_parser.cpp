@@ -8,19 +8,13 @@
 #include <limits>
 
 #include "atlas_refine/error.h"
+#include "input_file.h"
 
 namespace atlas_refine::cli {
 
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
-
-/// Text as it may stand in a one-line message: short, printable.
-std::string quoted(std::string_view text) {
-  std::string result = "'";
-  for (char c : text.substr(0, 40)) result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return result + (text.size() > 40 ? "...'" : "'");
-}
 
 }  // namespace
 
@@ -35,16 +29,17 @@ void ObjParser::run() {
     const std::size_t record_begin = at_;
     const std::string_view keyword = view(next_token());
     if (keyword == "v") {
-      read_position();
+      read_position(record_begin);
     } else if (keyword == "vt") {
       read_uv(record_begin);
     } else if (keyword == "vn") {
-      ++normal_count_;
-      skip_logical_line();
+      read_normal(record_begin);
     } else if (keyword == "f") {
-      read_face();
+      read_face(record_begin);
     } else if (keyword == "l") {
       read_line_element();
+    } else if (keyword == "p") {
+      read_point_element();
     } else {
       skip_physical_line();
     }
@@ -52,13 +47,18 @@ void ObjParser::run() {
   check_indices();
 }
 
-void ObjParser::read_position() {
+void ObjParser::read_position(std::size_t record_begin) {
+  ObjFile::PositionRecord record;
+  record.first_extra = static_cast<int>(file_.extras_.size());
   const double x = finite_number("vertex position");
   const double y = finite_number("vertex position");
   const double z = finite_number("vertex position");
   file_.atlas_.positions.emplace_back(x, y, z);
-  for (Span token = next_token(); token.begin != token.end; token = next_token()) number(token);  // w, colours
+  for (Span token = next_token(); token.begin != token.end; token = next_token()) file_.extras_.push_back(number(token));
   skip_logical_line();
+  record.extra_count = static_cast<int>(file_.extras_.size()) - record.first_extra;
+  record.whole = {record_begin, at_};
+  file_.position_records_.push_back(record);
 }
 
 void ObjParser::read_uv(std::size_t record_begin) {
@@ -77,12 +77,25 @@ void ObjParser::read_uv(std::size_t record_begin) {
   file_.uv_records_.push_back(record);
 }
 
-void ObjParser::read_face() {
+// Normals matter only where faces are divided, so text that is no normal is no reason to refuse the file.
+void ObjParser::read_normal(std::size_t record_begin) {
+  Vec3 value = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (int k = 0; k < 3; ++k) {
+    const std::string_view text = view(next_token());
+    std::from_chars(text.data(), text.data() + text.size(), value[k]);
+  }
+  skip_logical_line();
+  file_.normal_records_.push_back({{record_begin, at_}, value});
+}
+
+void ObjParser::read_face(std::size_t record_begin) {
   const int face = file_.atlas_.face_count();
   file_.face_lines_.push_back(line_);
   int corners = 0;
   Corner first;
+  ObjFile::FaceRecord record;
   for (Span token = next_token(); token.begin != token.end; token = next_token(), ++corners) {
+    record.tail.begin = token.end;
     const Corner c = corner(token);
     if (corners == 0) first = c;
     if ((c.uv < 0) != (first.uv < 0) || (c.normal < 0) != (first.normal < 0))
@@ -97,6 +110,9 @@ void ObjParser::read_face() {
   }
   file_.atlas_.face_offsets.push_back(file_.atlas_.corner_count());
   skip_logical_line();
+  record.tail.end = at_;
+  record.whole = {record_begin, at_};
+  file_.face_records_.push_back(record);
 }
 
 void ObjParser::add_corner(const Corner& corner) {
@@ -108,13 +124,27 @@ void ObjParser::add_corner(const Corner& corner) {
   }
   if (corner.uv >= 0) file_.uv_references_.push_back({corner.uv_text, corner.uv, file_.atlas_.corner_count()});
   file_.atlas_.corner_vertices.push_back(corner.vertex);
+  file_.corner_normals_.push_back(corner.normal);
 }
 
-// Line elements keep their text; only where vt records are renumbered their vt indices must follow.
+// Line and point elements keep their text; only where records are renumbered or moved their indices must follow.
 void ObjParser::read_line_element() {
   for (Span token = next_token(); token.begin != token.end; token = next_token()) {
     const Corner c = corner(token);
     if (c.uv >= 0) file_.uv_references_.push_back({c.uv_text, c.uv, -1});
+    file_.vertex_references_.push_back({c.vertex_text, c.vertex});
+  }
+  skip_logical_line();
+}
+
+void ObjParser::read_point_element() {
+  for (Span token = next_token(); token.begin != token.end; token = next_token()) {
+    const std::string_view text = view(token);
+    const auto count = static_cast<int>(file_.atlas_.positions.size());
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool relative = error == std::errc() && end == text.data() + text.size() && value < 0 && value >= -count;
+    if (relative) file_.vertex_references_.push_back({token, count + value});
   }
   skip_logical_line();
 }
@@ -126,9 +156,9 @@ void ObjParser::check_indices() const {
   if (!any_uvs_) throw RefineError(ErrorCode::BadInput, "read", "has no UVs: no face corner names a vt record");
   if (const int face = first_face_without_uvs_; face >= 0)
     fail_at(file_.face_lines_[face], "face " + std::to_string(face) + " has no UVs, other faces have");
-  if (highest_normal_ >= static_cast<int>(normal_count_))
+  if (highest_normal_ >= static_cast<int>(file_.normal_records_.size()))
     fail_at(line_of_highest_normal_, "normal index " + std::to_string(highest_normal_ + 1) + " is out of range, the file has " +
-                                         std::to_string(normal_count_) + " normals");
+                                         std::to_string(file_.normal_records_.size()) + " normals");
   std::vector<int> face_seen_at_vertex(atlas.positions.size(), -1);
   for (int face = 0; face < atlas.face_count(); ++face) check_face(face, face_seen_at_vertex);
   for (const ObjFile::UvReference& reference : file_.uv_references_) {
@@ -161,13 +191,15 @@ ObjParser::Corner ObjParser::corner(Span token) const {
   const std::string_view text = view(token);
   Corner result;
   const std::size_t slash1 = std::min(text.find('/'), text.size());
-  result.vertex = index(text.substr(0, slash1), token, file_.atlas_.positions.size());
+  result.vertex_text = {token.begin, token.begin + slash1};
+  result.vertex = index(view(result.vertex_text), token, file_.atlas_.positions.size());
   if (slash1 == text.size()) return result;
   const std::size_t slash2 = std::min(text.find('/', slash1 + 1), text.size());
   result.uv_text = {token.begin + slash1 + 1, token.begin + slash2};
   if (const auto uv = view(result.uv_text); !uv.empty()) result.uv = index(uv, token, file_.uv_records_.size());
   if (slash2 == text.size()) return result;
-  if (const auto normal = text.substr(slash2 + 1); !normal.empty()) result.normal = index(normal, token, normal_count_);
+  if (const auto normal = text.substr(slash2 + 1); !normal.empty())
+    result.normal = index(normal, token, file_.normal_records_.size());
   return result;
 }
 

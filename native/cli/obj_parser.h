@@ -21,13 +21,16 @@ class ObjParser {
     int vertex = -1;
     int uv = -1;
     int normal = -1;
+    Span vertex_text;
     Span uv_text;
   };
 
-  void read_position();
+  void read_position(std::size_t record_begin);
   void read_uv(std::size_t record_begin);
-  void read_face();
+  void read_normal(std::size_t record_begin);
+  void read_face(std::size_t record_begin);
   void read_line_element();
+  void read_point_element();
   void add_corner(const Corner& corner);
   void check_indices() const;
   void check_face(int face, std::vector<int>& face_seen_at_vertex) const;
@@ -51,7 +54,6 @@ class ObjParser {
   const std::string& text_;
   std::size_t at_ = 0;
   int line_ = 1;
-  std::size_t normal_count_ = 0;
   int highest_normal_ = -1;
   int line_of_highest_normal_ = 0;
   bool any_uvs_ = false;

@@ -79,14 +79,53 @@ PendingFile::PendingFile(const fs::path& path, const std::string& content) : pat
 PendingFile::~PendingFile() {
   std::error_code ignored;
   if (!temporary_.empty()) fs::remove(temporary_, ignored);
+  if (!old_.empty()) fs::remove(old_, ignored);
 }
 
-void PendingFile::commit() {
+// A second name for the old file; a file system without such names cannot give it back.
+void PendingFile::link_old() {
   std::error_code error;
-  if (fs::exists(path_, error)) fs::permissions(temporary_, fs::status(path_, error).permissions(), error);
+  replaces_ = fs::exists(path_, error);
+  if (!replaces_) return;
+  fs::permissions(temporary_, fs::status(path_, error).permissions(), error);
+  const fs::path old = temporary_.string() + ".old";
+  fs::create_hard_link(path_, old, error);
+  if (!error) old_ = old;
+}
+
+void PendingFile::put_in_place() {
+  std::error_code error;
   fs::rename(temporary_, path_, error);
   if (error) throw OutputError(path_, "cannot be written: " + error.message());
   temporary_.clear();
+  in_place_ = true;
+}
+
+void PendingFile::put_back() noexcept {
+  std::error_code ignored;
+  if (in_place_ && !replaces_) fs::remove(path_, ignored);
+  if (in_place_ && !old_.empty()) fs::rename(old_, path_, ignored);
+}
+
+void commit_together(std::list<PendingFile>& files) {
+  for (PendingFile& file : files) file.link_old();
+  try {
+    for (PendingFile& file : files) file.put_in_place();
+  } catch (const OutputError&) {
+    for (PendingFile& file : files) file.put_back();
+    throw;
+  }
+}
+
+PendingFolder::PendingFolder(const fs::path& path) : path_(path) {
+  std::error_code error;
+  made_ = fs::create_directory(path, error);
+  if (error) throw OutputError(path, "cannot be created: " + error.message());
+}
+
+PendingFolder::~PendingFolder() {
+  std::error_code ignored;
+  if (made_) fs::remove(path_, ignored);
 }
 
 }  // namespace atlas_refine::cli

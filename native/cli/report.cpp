@@ -40,15 +40,27 @@ Json to_json(const Gap& gap) {
   return {{"value", number(gap.value)}, {"unit", gap.unit == Gap::Unit::BoxDiagonal ? "box_diagonal" : "long_side"}};
 }
 
+Json to_json(const RectangleOptions& o) {
+  return {{"sigma", o.sigma}, {"candidates", o.candidates}, {"omega", o.omega}, {"until_bound", o.until_bound}};
+}
+
+Json to_json(const FileReport& file) {
+  return {{"input", file.input.string()},    {"output", file.output.string()}, {"faces", file.faces},
+          {"added_faces", file.added_faces}, {"vertices", file.vertices},      {"added_vertices", file.added_vertices}};
+}
+
 Json to_json(const CommandLine& line) {
   const RefineOptions& o = line.options;
   return {{"pe_bound", o.pe_bound},
-          {"seams", "none"},
+          {"seams", o.seams == Seams::Rectangles ? "rectangles" : "none"},
+          {"rectangles", o.seams == Seams::Rectangles ? to_json(o.rectangles) : Json(nullptr)},
           {"box_aspect", o.box_aspect == 0 ? Json("free") : Json(o.box_aspect)},
           {"gap", o.gap ? to_json(*o.gap) : Json("automatic")},
           {"max_distortion", o.max_distortion ? Json(*o.max_distortion) : Json(nullptr)},
           {"best_effort", o.best_effort},
           {"density", o.density == Density::Keep ? "keep" : "equal"},
+          {"reference", o.reference == Reference::Input ? "input" : "surface"},
+          {"importance", line.importance ? Json(line.importance->string()) : Json(nullptr)},
           {"seed", o.seed},
           {"threads", o.threads},
           {"svg", line.svg_folder ? Json(line.svg_folder->string()) : Json(nullptr)}};
@@ -80,26 +92,55 @@ std::string print(const char* format, Args... args) {
   return line;
 }
 
+/// Growth of BL as a fraction of the input's; NaN where the input has no seam to compare with.
+double seam_growth(const RefineResult& result) {
+  const double before = result.before.boundary_length, after = result.after.boundary_length;
+  if (after == before) return 0;
+  return before > 0 ? (after - before) / before : std::nan("");
+}
+
+/// What the cut did, where there was one.
+std::string cut_lines(const std::vector<FileReport>& files, const RefineResult& result) {
+  if (!result.cut) return "";
+  const Measures& before = result.before;
+  const Measures& after = result.after;
+  const double growth = seam_growth(result);
+  std::string text = print("  seams BL     %.3f -> %.3f", before.boundary_length, after.boundary_length);
+  text += std::isfinite(growth) ? print(" (+%.1f %%)\n", 100 * growth) : "\n";
+  text += print("  charts       %d -> %d, smallest %.2f %% of the surface, %d under 3 %%\n", before.chart_count,
+                after.chart_count, 100 * after.smallest_chart, after.small_charts);
+  text += print("  E_2          %.4f\n", after.distortion_to_input);
+  int added_faces = 0, added_vertices = 0;
+  for (const FileReport& file : files) {
+    added_faces += file.added_faces;
+    added_vertices += file.added_vertices;
+  }
+  return text + print("  added        %d faces, %d vertices\n", added_faces, added_vertices);
+}
+
 /// A distance as fraction of the box diagonal, or "none" where there is nothing to be apart from.
 std::string gap_text(double gap) { return std::isfinite(gap) ? print("%.5f of the diagonal", gap) : "none"; }
 
 }  // namespace
 
-std::string json_report(const CommandLine& line, const RefineResult& result, const Times& times) {
+std::string json_report(const CommandLine& line, const std::vector<FileReport>& files, const RefineResult& result,
+                        const Times& times) {
+  Json file_list = Json::array();
+  for (const FileReport& file : files) file_list.push_back(to_json(file));
   Json charts = Json::array();
   for (const ChartReport& chart : result.charts) charts.push_back(to_json(chart));
   Json stages = Json::array();
   for (const StageTime& stage : result.timings) stages.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
   return dump({{"program", "atlas-refine"},
                {"version", version()},
-               {"input", line.input.string()},
-               {"output", line.output.string()},
+               {"files", file_list},
                {"options", to_json(line)},
                {"intervention", to_string(result.intervention)},
                {"bound_met", result.bound_met},
                {"before", to_json(result.before)},
                {"after", to_json(result.after)},
                {"added_seam_edges", result.after.seam_edges - result.before.seam_edges},
+               {"added_seam_length", number(seam_growth(result))},
                {"gap", to_json(result.gap)},
                {"price", number(result.price)},
                {"iterations", result.iterations},
@@ -110,7 +151,7 @@ std::string json_report(const CommandLine& line, const RefineResult& result, con
                {"seconds", {{"read", times.read}, {"refine", times.refine}, {"write", times.write}}}});
 }
 
-std::string summary(const RefineResult& result, const Times& times) {
+std::string summary(const std::vector<FileReport>& files, const RefineResult& result, const Times& times) {
   const Measures& before = result.before;
   const Measures& after = result.after;
   std::string text = std::string(to_string(result.intervention)) + (result.bound_met ? "" : ", bound not met") + ": " +
@@ -121,6 +162,7 @@ std::string summary(const RefineResult& result, const Times& times) {
   text += print("  stretch 99%%  %.3f -> %.3f, largest %.3f -> %.3f\n", before.stretch_99, after.stretch_99, before.stretch_max,
                 after.stretch_max);
   text += print("  added seams  %d\n", after.seam_edges - before.seam_edges);
+  text += cut_lines(files, result);
   text += "  gap          " + gap_text(after.gap_between) + "\n";
   for (const std::string& repair : result.repairs) text += "  repair: " + repair + "\n";
   for (const std::string& warning : result.warnings) text += "  warning: " + warning + "\n";

@@ -1,7 +1,9 @@
 // What the program tells: a JSON report, a summary for people, the table of `measure`.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "atlas_refine/measures.h"
 #include "command_line.h"
@@ -15,11 +17,22 @@ struct Times {
   double write = 0;
 };
 
+/// One input, and what became of it.
+struct FileReport {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  int faces = 0;
+  int added_faces = 0;
+  int vertices = 0;
+  int added_vertices = 0;
+};
+
 /// Everything about a run, for programs. Infinite values become null.
-std::string json_report(const CommandLine& line, const RefineResult& result, const Times& times);
+std::string json_report(const CommandLine& line, const std::vector<FileReport>& files, const RefineResult& result,
+                        const Times& times);
 
 /// A few lines about a run, for people.
-std::string summary(const RefineResult& result, const Times& times);
+std::string summary(const std::vector<FileReport>& files, const RefineResult& result, const Times& times);
 
 std::string measures_json(const std::string& input, const Measures& measures, const Validity& validity);
 std::string measures_table(const Measures& measures, const Validity& validity);

@@ -79,7 +79,7 @@ def test_file_names_with_spaces_and_other_scripts(program, tmp_path):
     folder = tmp_path / "Ünï cödé 図"
     folder.mkdir()
     refine(program, folder, grid(3, 30), "--report", folder / "bericht ä.json", name="my atlas é.obj")
-    assert json.loads((folder / "bericht ä.json").read_text())["input"].endswith("my atlas é.obj")
+    assert json.loads((folder / "bericht ä.json").read_text())["files"][0]["input"].endswith("my atlas é.obj")
 
 
 def test_file_name_that_is_not_utf8(program, tmp_path):
@@ -122,10 +122,23 @@ def test_report(program, tmp_path):
     assert told["options"]["pe_bound"] == 0.7
     assert told["options"]["box_aspect"] == 2
     assert told["options"]["gap"] == {"value": 2 / 1024, "unit": "long_side"}
+    assert told["options"]["seams"] == "none"
+    assert told["options"]["rectangles"] is None
+    assert told["files"] == [
+        {
+            "input": str(tmp_path / "in.obj"),
+            "output": str(tmp_path / "out.obj"),
+            "faces": 16,
+            "added_faces": 0,
+            "vertices": 25,
+            "added_vertices": 0,
+        }
+    ]
     assert told["intervention"] in ("moved", "squeezed")
     assert told["before"]["pe"] == pytest.approx(box_efficiency(grid(4, 30)))
     assert told["after"]["gap_between"] is None
     assert told["added_seam_edges"] == 0
+    assert told["added_seam_length"] == 0
     for key in ("bound_met", "price", "iterations", "charts", "repairs", "warnings", "timings", "gap"):
         assert key in told
     assert set(told["seconds"]) == {"read", "refine", "write"}

@@ -82,6 +82,7 @@ def test_missing_file_and_folder(program, tmp_path, old_output, job):
         )
 
 
+RECTANGLES = ["--seams", "rectangles"]
 BAD_OPTIONS = [
     (["--pe-bound", "0"], "--pe-bound"),
     (["--pe-bound", "1"], "--pe-bound"),
@@ -96,8 +97,28 @@ BAD_OPTIONS = [
     (["--unknown"], "--unknown"),
     (["--unknown", "3"], "--unknown"),
     (["-x"], "-x"),
-    (["another.obj"], "another.obj"),
-    (["--seams", "rectangles"], "--seams"),
+    (["another.obj"], "out.obj: is not a folder"),
+    (["in.obj"], "in.obj: a second file of this name"),
+    (["folder/"], "folder/: is not the name of a file"),
+    (["--seams", "Rectangles"], "--seams"),
+    (["--seams", ""], "--seams"),
+    (["--sigma", "0.004"], "--sigma: needs --seams rectangles"),
+    (["--candidates", "500"], "--candidates: needs --seams rectangles"),
+    (["--omega", "0.1", "--seams", "none"], "--omega: needs --seams rectangles"),
+    (["--until-bound"], "--until-bound: needs --seams rectangles"),
+    (["--until-bound=1", *RECTANGLES], "--until-bound"),
+    (["--sigma", "-0.004", *RECTANGLES], "--sigma"),
+    (["--sigma", "0", *RECTANGLES], "--sigma"),
+    (["--sigma", "0.2", *RECTANGLES], "--sigma"),
+    (["--sigma", "nan", *RECTANGLES], "--sigma"),
+    (["--candidates", "0", *RECTANGLES], "--candidates"),
+    (["--candidates", "-5", *RECTANGLES], "--candidates"),
+    (["--candidates", "1e3", *RECTANGLES], "--candidates"),
+    (["--candidates", "1000001", *RECTANGLES], "--candidates"),
+    (["--omega", "1.01", *RECTANGLES], "--omega"),
+    (["--omega", "-0.1", *RECTANGLES], "--omega"),
+    (["--reference", "uv"], "--reference"),
+    (["--importance"], "--importance"),
     (["--aspect", "round"], "--aspect"),
     (["--aspect", "2:0"], "--aspect"),
     (["--aspect", "-2:1"], "--aspect"),
@@ -158,6 +179,34 @@ def test_folder_without_permission(program, tmp_path, good):
     program.refused(2, good, "-o", folder / "out.obj")
 
 
+BAD_IMPORTANCE = {
+    "1 1\n1": "line 2: ends after 3 numbers, there are 16 faces",
+    "": "line 1: ends after 0 numbers, there are 16 faces",
+    "1\n" * 17: "line 17: more numbers than faces, there are 16",
+    "1\n2 much\n": "line 2: 'much' is not a number",
+    "1\r\n2\r\n1,5\r\n": "line 3: '1,5' is not a number",
+    "1\nnan": "line 2: 'nan' is not a number",
+    "1\ninf": "line 2: 'inf' is not a number",
+    "1\n1e400": "line 2: '1e400' is not a number",
+    "1\n\n0 1": "line 3: an importance must be positive, not '0'",
+    "1 -2": "line 1: an importance must be positive, not '-2'",
+}
+
+
+@pytest.mark.parametrize("text", BAD_IMPORTANCE)
+def test_importance_that_cannot_be_used(program, good, tmp_path_factory, old_output, text):
+    path = tmp_path_factory.mktemp("importance") / "weights.txt"
+    path.write_bytes(text.encode())
+    message = program.refused(3, good, "-o", old_output, "--importance", path)
+    assert message == f"atlas-refine: {path}: {BAD_IMPORTANCE[text]}"
+
+
+def test_importance_that_is_not_there(program, tmp_path, good, old_output):
+    missing = program.refused(3, good, "-o", old_output, "--importance", tmp_path / "nothing")
+    assert missing == f"atlas-refine: {tmp_path / 'nothing'}: does not exist"
+    assert "is a directory" in program.refused(3, good, "-o", old_output, "--importance", tmp_path)
+
+
 def test_bound_out_of_reach_writes_nothing(program, tmp_path, old_output):
     """A triangle fills half of any box."""
     path = tmp_path / "in.obj"
@@ -166,10 +215,22 @@ def test_bound_out_of_reach_writes_nothing(program, tmp_path, old_output):
     assert "0.5" in message
 
 
+CUT_OPTIONS = ("--seams", "--sigma", "--candidates", "--omega", "--until-bound", "--reference", "--importance")
+
+
 def test_help_and_version(program):
     for arguments in (["--help"], ["measure", "--help"], ["--version"]):
         run = program(*arguments)
         assert (run.returncode, run.stderr) == (0, b"")
     assert program("--version").stdout.startswith(b"atlas-refine ")
-    for option in ("--pe-bound", "--gap-px", "--texture-size", "--max-distortion", "--best-effort", "--svg", "--report"):
+    for option in (
+        "--pe-bound",
+        "--gap-px",
+        "--texture-size",
+        "--max-distortion",
+        "--best-effort",
+        "--svg",
+        "--report",
+        *CUT_OPTIONS,
+    ):
         assert option.encode() in program("--help").stdout

@@ -1,0 +1,114 @@
+// One or several OBJ files as one atlas, and a result of it given back to the files.
+#include "collection.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "cut_corners.h"
+#include "input_file.h"
+
+namespace atlas_refine::cli {
+
+namespace {
+
+/// Whether every face is still what it was in `atlas`.
+bool divides_nothing(const CutMesh& cut, const Atlas& atlas) {
+  return cut.new_vertices.empty() && cut.face_offsets == atlas.face_offsets && cut.corner_vertices == atlas.corner_vertices;
+}
+
+}  // namespace
+
+void Collection::add(const std::filesystem::path& path) {
+  ObjFile obj = ObjFile::read(path);
+  if (files_.size() == 1 && atlas_.face_offsets.empty()) atlas_ = files_.front().obj.atlas();
+  const auto vertices = static_cast<int>(atlas_.positions.size());
+  const int faces = atlas_.face_count(), corners = atlas_.corner_count();
+  if (!files_.empty()) {
+    const Atlas& added = obj.atlas();
+    if (added.corner_vertices.size() > static_cast<std::size_t>(std::numeric_limits<int>::max() - corners))
+      throw InputError(path, "has more face corners than this program can count");
+    atlas_.positions.insert(atlas_.positions.end(), added.positions.begin(), added.positions.end());
+    for (int f = 1; f <= added.face_count(); ++f) atlas_.face_offsets.push_back(corners + added.face_offsets[f]);
+    for (int vertex : added.corner_vertices) atlas_.corner_vertices.push_back(vertices + vertex);
+    atlas_.corner_uvs.insert(atlas_.corner_uvs.end(), added.corner_uvs.begin(), added.corner_uvs.end());
+  }
+  files_.push_back({path, std::move(obj), vertices, faces, corners});
+}
+
+std::string Collection::place_of_face(int face) const {
+  if (face < 0 || face >= atlas().face_count()) {
+    const std::string more = files_.size() > 1 ? " and " + std::to_string(files_.size() - 1) + " more" : "";
+    return files_.front().path.string() + more;
+  }
+  const auto file =
+      std::prev(std::upper_bound(files_.begin(), files_.end(), face, [](int f, const File& x) { return f < x.first_face; }));
+  return file->path.string() + ": line " + std::to_string(file->obj.line_of_face(face - file->first_face));
+}
+
+Collection::Output Collection::output(int k, const RefineResult& result) const {
+  const File& file = files_[k];
+  if (result.intervention == Intervention::Unchanged) return {file.obj.text()};
+  const Part mine = part(file, result);
+  if (!mine.cut) return {file.obj.text_with_uvs(mine.corner_uvs)};
+  return {file.obj.text_with_cut(*mine.cut, mine.corner_uvs),
+          static_cast<int>(mine.cut->face_sources.size()) - file.obj.atlas().face_count(),
+          static_cast<int>(mine.cut->new_vertices.size())};
+}
+
+Collection::Part Collection::part(const File& file, const RefineResult& result) const {
+  const Atlas& own = file.obj.atlas();
+  const auto uvs = [&](int first, int last) {
+    return std::vector<Vec2>(result.corner_uvs.begin() + first, result.corner_uvs.begin() + last);
+  };
+  if (!result.cut) return {uvs(file.first_corner, file.first_corner + own.corner_count()), {}};
+  const CutMesh& whole = *result.cut;
+  const auto part_of = [&](int face) {
+    return std::lower_bound(whole.face_sources.begin(), whole.face_sources.end(), face) - whole.face_sources.begin();
+  };
+  const auto first = part_of(file.first_face), last = part_of(file.first_face + own.face_count());
+  Part part{uvs(whole.face_offsets[first], whole.face_offsets[last]), cut_of(file, whole, first, last)};
+  if (divides_nothing(*part.cut, own)) part.cut.reset();
+  return part;
+}
+
+// Faces `first` to `last` of the whole cut, in the numbers of the file. New vertices keep their order; one that lies between two
+// files is there in both.
+CutMesh Collection::cut_of(const File& file, const CutMesh& whole, std::size_t first, std::size_t last) const {
+  const auto all_vertices = static_cast<int>(atlas().positions.size());
+  const auto own_vertices = static_cast<int>(file.obj.atlas().positions.size());
+  std::vector<int> face_of_vertex(whole.new_vertices.size(), -1);
+  for (std::size_t face = first; face < last; ++face) {
+    for (int c = whole.face_offsets[face]; c < whole.face_offsets[face + 1]; ++c) {
+      const int vertex = whole.corner_vertices[c];
+      if (vertex >= all_vertices) face_of_vertex[vertex - all_vertices] = whole.face_sources[face];
+    }
+  }
+  CutMesh cut;
+  std::vector<int> own_index(whole.new_vertices.size(), -1);
+  for (std::size_t k = 0; k < own_index.size(); ++k) {
+    if (face_of_vertex[k] < 0) continue;
+    own_index[k] = own_vertices + static_cast<int>(cut.new_vertices.size());
+    cut.new_vertices.push_back(in_file(file, whole.new_vertices[k], face_of_vertex[k]));
+  }
+  cut.face_offsets.push_back(0);
+  for (std::size_t face = first; face < last; ++face) {
+    cut.face_sources.push_back(whole.face_sources[face] - file.first_face);
+    cut.face_offsets.push_back(whole.face_offsets[face + 1] - whole.face_offsets[first]);
+    for (int c = whole.face_offsets[face]; c < whole.face_offsets[face + 1]; ++c) {
+      const int vertex = whole.corner_vertices[c];
+      cut.corner_vertices.push_back(vertex < all_vertices ? vertex - file.first_vertex : own_index[vertex - all_vertices]);
+    }
+  }
+  return cut;
+}
+
+NewVertex Collection::in_file(const File& file, const NewVertex& vertex, int face) const {
+  const int end = file.first_corner + file.obj.atlas().corner_count();
+  const bool at_home = vertex.corners[0] >= file.first_corner && vertex.corners[0] < end;
+  NewVertex own = vertex;
+  if (!at_home) own.corners = point_of_face(atlas(), vertex, face).corners;
+  for (int& corner : own.corners) corner -= file.first_corner;
+  return own;
+}
+
+}  // namespace atlas_refine::cli

@@ -1,0 +1,57 @@
+// One or several OBJ files as one atlas, and a result of it given back to the files.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "atlas_refine/refine.h"
+#include "obj_file.h"
+
+namespace atlas_refine::cli {
+
+/// A collection of models (section 4, "A collection of models"): faces, vertices and corners of the files, one after the other.
+class Collection {
+ public:
+  /// Throws InputError.
+  void add(const std::filesystem::path& path);
+
+  int file_count() const { return static_cast<int>(files_.size()); }
+  const ObjFile& file(int k) const { return files_[k].obj; }
+  const std::filesystem::path& path(int k) const { return files_[k].path; }
+  const Atlas& atlas() const { return files_.size() == 1 ? files_.front().obj.atlas() : atlas_; }
+
+  /// "FILE" or, where the face (of atlas()) is known, "FILE: line N"; without a face the first file stands for all.
+  std::string place_of_face(int face) const;
+
+  /// What file `k` has become in `result`: its text, and what the cut added to it.
+  struct Output {
+    std::string text;
+    int added_faces = 0;
+    int added_vertices = 0;
+  };
+  Output output(int k, const RefineResult& result) const;
+
+ private:
+  struct File {
+    std::filesystem::path path;
+    ObjFile obj;
+    int first_vertex;
+    int first_face;
+    int first_corner;
+  };
+  /// A file's part of a result; `cut` only where it divides or extends one of the file's faces.
+  struct Part {
+    std::vector<Vec2> corner_uvs;
+    std::optional<CutMesh> cut;
+  };
+  Part part(const File& file, const RefineResult& result) const;
+  CutMesh cut_of(const File& file, const CutMesh& whole, std::size_t first, std::size_t last) const;
+  NewVertex in_file(const File& file, const NewVertex& vertex, int face) const;
+
+  std::vector<File> files_;
+  Atlas atlas_;
+};
+
+}  // namespace atlas_refine::cli
