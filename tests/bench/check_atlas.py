@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Checks a refined OBJ against its input without using the library: file kept, no new seam, valid, PE, gap, distortion.
 
-    check_atlas.py IN.obj OUT.obj [--pe-bound B] [--aspect W/H] [--gap FRACTION] [--gap-unit diagonal|long_side]
+    check_atlas.py IN.obj OUT.obj [--pe-bound B] [--aspect W/H] [--gap FRACTION] [--gap-unit diagonal|long_side] [--cuts]
+
+With --cuts seams may be added and faces divided; then the parts of each face must tile it, with everything else kept.
 
 Prints one JSON line; exit code 0 where everything holds, 1 where not, 2 where a file cannot be read. Needs numpy only. Signs are
 decided in floating point where that is safe and in rational arithmetic where it is not.
@@ -12,53 +14,16 @@ import json
 import math
 import sys
 import time
-from dataclasses import dataclass
-from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
+from check_cut import divided, joined_anew
+from exact import exactly_touch, folds_back, orientation, polygon_is_simple
+from obj_text import one_after_the_other, read_obj
 
 SLIVER = 1e-7  # triangles in space lower than this part of their longest edge have no shape of their own
 NEAR = 1e-9  # of the coordinates' size: closer than this only rational arithmetic decides
 PAIRS_AT_ONCE = 2_000_000
-
-
-@dataclass
-class Obj:
-    kept: list  # every record but vt, faces without their vt indices
-    positions: np.ndarray
-    corner_vertex: np.ndarray
-    corner_uv: np.ndarray
-    offsets: np.ndarray
-
-
-def read_obj(path):
-    kept, positions, uvs, corner_vertex, corner_uv, offsets = [], [], [], [], [], [0]
-    joined = Path(path).read_bytes().replace(b"\\\r\n", b" ").replace(b"\\\n", b" ")
-    for line in joined.splitlines():
-        tokens = line.split()
-        keyword = tokens[0] if tokens else b""
-        if keyword == b"vt":
-            uvs.append((float(tokens[1]), float(tokens[2]) if len(tokens) > 2 and tokens[2][:1] != b"#" else 0.0))
-            continue
-        if keyword not in (b"f", b"l"):
-            kept.append(line)
-            if keyword == b"v":
-                positions.append([float(t) for t in tokens[1:4]])
-            continue
-        corners = [t.split(b"/") for t in tokens[1:]]
-        kept.append((keyword, [(c[0], *c[2:]) for c in corners]))
-        if keyword == b"l":
-            continue
-        for corner in corners:
-            if corner[0][:1] == b"#":
-                break
-            v, t = int(corner[0]), int(corner[1])
-            corner_vertex.append(v - 1 if v > 0 else len(positions) + v)
-            corner_uv.append(t - 1 if t > 0 else len(uvs) + t)
-        offsets.append(len(corner_vertex))
-    uv_table = np.array(uvs, dtype=float).reshape(-1, 2)
-    return Obj(kept, np.array(positions), np.array(corner_vertex), uv_table[np.array(corner_uv)] + 0.0, np.array(offsets))
 
 
 # ---------------------------------------------------------------------------------------------------------------- connectivity
@@ -128,7 +93,11 @@ class Topology:
         edges = np.sort(np.stack([place, place[self.next]], axis=1), axis=1)
         edge = np.unique(edges, axis=0, return_inverse=True)[1]
         shared, joined = np.bincount(edge), np.bincount(edge, self.partner >= 0)
-        self.seams = int(np.sum((shared > 1) & (joined < shared) & (shared > np.bincount(edge, place == place[self.next]))))
+        seam = (shared > 1) & (joined < shared) & (shared > np.bincount(edge, place == place[self.next]))
+        at = np.unique(edge, return_index=True)[1][seam]
+        p, used = obj.positions[obj.corner_vertex], obj.positions
+        self.seams = len(at)
+        self.seam_length = float(np.linalg.norm(p[self.next[at]] - p[at], axis=1).sum() / np.linalg.norm(np.ptp(used, axis=0)))
 
     def _senses(self, obj, one, two):
         """1 for every face, but -1 for the faces of a chart that are wound against the larger part of it."""
@@ -146,59 +115,6 @@ class Topology:
 def face_areas(obj, following):
     uv = obj.corner_uv - np.repeat(obj.corner_uv[obj.offsets[:-1]], np.diff(obj.offsets), axis=0)
     return np.add.reduceat(uv[:, 0] * uv[following, 1] - uv[:, 1] * uv[following, 0], obj.offsets[:-1]) / 2
-
-
-# ------------------------------------------------------------------------------------------------------------ exact predicates
-
-
-def exact_orientation(a, b, c):
-    (ax, ay), (bx, by), (cx, cy) = ((Fraction(float(x)), Fraction(float(y))) for x, y in (a, b, c))
-    det = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-    return (det > 0) - (det < 0)
-
-
-def orientation(a, b, c):
-    """Sign of the turn a, b, c for arrays of points: in floating point, rational where that might err."""
-    left = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1])
-    right = (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
-    det = left - right
-    sign = np.sign(det).astype(int)
-    for i in np.flatnonzero(np.abs(det) <= 1e-14 * (np.abs(left) + np.abs(right))):
-        sign[i] = exact_orientation(a[i], b[i], c[i])
-    return sign
-
-
-def exactly_touch(p, q, r, s):
-    """Whether the closed segments pq and rs have a point in common."""
-    o = [exact_orientation(p, q, r), exact_orientation(p, q, s), exact_orientation(r, s, p), exact_orientation(r, s, q)]
-    if o[0] * o[1] < 0 and o[2] * o[3] < 0:
-        return True
-
-    def in_box(a, b, c):
-        return min(a[0], b[0]) <= c[0] <= max(a[0], b[0]) and min(a[1], b[1]) <= c[1] <= max(a[1], b[1])
-
-    cases = ((o[0], p, q, r), (o[1], p, q, s), (o[2], r, s, p), (o[3], r, s, q))
-    return any(sign == 0 and in_box(a, b, c) for sign, a, b, c in cases)
-
-
-def polygon_is_simple(points):
-    """Whether a polygon runs around its inside once, counter-clockwise, without touching itself."""
-    n = len(points)
-    exact = [(Fraction(float(x)), Fraction(float(y))) for x, y in points]
-    if sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(exact, exact[1:] + exact[:1], strict=True)) <= 0:
-        return False
-    for i in range(n):
-        a, b, c = points[i], points[(i + 1) % n], points[(i + 2) % n]
-        if folds_back(a, b, c):
-            return False
-        for j in range(i + 2, n):
-            if (j + 1) % n != i and exactly_touch(a, b, points[j], points[(j + 1) % n]):
-                return False
-    return True
-
-
-def folds_back(a, b, c):
-    return exact_orientation(a, b, c) == 0 and float(np.dot(a - b, c - b)) >= 0
 
 
 # ------------------------------------------------------------------------------------------------------------------ the atlas
@@ -376,20 +292,23 @@ def distortion(obj, triangles):
 # ------------------------------------------------------------------------------------------------------------------ the check
 
 
-def check(in_path, out_path, pe_bound=None, aspect=0.0, gap=None, gap_unit="diagonal"):
-    """All findings on one pair of files; `problems` is empty where everything holds."""
+def check(in_path, out_path, pe_bound=None, aspect=0.0, gap=None, gap_unit="diagonal", cuts=False):
+    """All findings on one pair of files, or on the files of a collection; `problems` is empty where everything holds."""
     started = time.monotonic()
-    before, after = read_obj(in_path), read_obj(out_path)
-    found = {"file": Path(in_path).name, "ok": False, "problems": []}
+    in_paths, out_paths = ([p] if isinstance(p, str | Path) else p for p in (in_path, out_path))
+    found = {"file": Path(in_paths[0]).name, "ok": False, "problems": []}
+    pairs = [(read_obj(a), read_obj(b)) for a, b in zip(in_paths, out_paths, strict=True)]
+    sources = _check_files(pairs, cuts, found)
+    before, after = (one_after_the_other(objs) for objs in zip(*pairs, strict=True))
     problems = found["problems"]
-    if before.kept != after.kept:
-        problems.append("file: records other than UVs differ")
+    if problems:
         return found
-    found["faces"] = len(after.offsets) - 1
+    found["faces"] = after.faces
     if not np.isfinite(after.corner_uv).all():
         problems.append("UVs: not finite")
         return found
-    _check_seams(Topology(before), topology := Topology(after), found)
+    topology = Topology(after)
+    (_check_cut_seams if cuts else _check_seams)(Topology(before), topology, sources, found)
 
     triangles, face = fan_triangles(after.offsets)
     flipped = flipped_faces(after, topology.sense, triangles, face)
@@ -408,7 +327,25 @@ def check(in_path, out_path, pe_bound=None, aspect=0.0, gap=None, gap_unit="diag
     return found
 
 
-def _check_seams(before, after, found):
+def _check_files(pairs, cuts, found):
+    """The face of the inputs that each face of the results is part of."""
+    sources, first = [], 0
+    for before, after in pairs:
+        if before.kept == after.kept:
+            own = np.arange(before.faces)
+        elif cuts:
+            own, problems = divided(before, after)
+            found["problems"] += problems
+        else:
+            own = None
+            found["problems"].append("file: records other than UVs differ")
+        if own is not None:
+            sources.append(own + first)
+        first += before.faces
+    return np.concatenate(sources) if sources else None
+
+
+def _check_seams(before, after, _, found):
     split = np.flatnonzero((before.partner >= 0) & (after.partner != before.partner))
     welded = np.flatnonzero((after.partner >= 0) & (after.partner != before.partner))
     found.update(seams_in=before.seams, seams=after.seams, added_seams=len(split) // 2, removed_seams=len(welded) // 2)
@@ -416,6 +353,13 @@ def _check_seams(before, after, found):
         found["problems"].append(f"seams: {len(split) // 2} added, first at face {int(after.face[split[0]])}")
     if len(welded):
         found["problems"].append(f"seams: {len(welded) // 2} removed, first at face {int(after.face[welded[0]])}")
+
+
+def _check_cut_seams(before, after, sources, found):
+    found.update(seams_in=before.seams, seams=after.seams, bl_in=before.seam_length, bl=after.seam_length)
+    joined = joined_anew(before, after, sources)
+    if len(joined):
+        found["problems"].append(f"seams: {len(joined)} removed, first at face {int(after.face[joined[0]])}")
 
 
 def _check_efficiency(area, box, pe_bound, aspect, found):
@@ -448,9 +392,11 @@ def main():
     parser.add_argument("--aspect", type=float, default=0.0, help="width / height of the box, 0 = free")
     parser.add_argument("--gap", type=float, help="smallest distance between charts that must hold, as fraction of the unit")
     parser.add_argument("--gap-unit", choices=["diagonal", "long_side"], default="diagonal")
+    parser.add_argument("--cuts", action="store_true", help="seams may be added and faces divided")
     options = parser.parse_args()
+    goal = (options.pe_bound, options.aspect, options.gap, options.gap_unit)
     try:
-        found = check(options.input, options.output, options.pe_bound, options.aspect, options.gap, options.gap_unit)
+        found = check(options.input, options.output, *goal, cuts=options.cuts)
     except (OSError, ValueError, IndexError) as error:
         print(f"check_atlas: {options.output}: cannot be read: {error}", file=sys.stderr)
         return 2

@@ -1,0 +1,157 @@
+"""The checker on results that cut: it accepts faces divided rightly and finds each way of dividing them wrongly."""
+
+import check_atlas
+import pytest
+
+# Two triangles that share the edge 1-3, each in a half of the unit square, and a quad that is not flat; the quad's UVs lie apart.
+BEFORE = """mtllib a.mtl
+v 0 0 0 1 0 0
+v 1 0 0 0 1 0
+v 1 1 0 0 0 1
+v 0 1 0 0 0 0
+v 2 0 0.5
+v 2 1 0
+vt 0 0
+vt 0.5 0
+vt 0.5 0.5
+vt 0 0.5
+vt 0.6 0
+vt 1 0
+vt 1 0.5
+vt 0.6 0.5
+vn 0 0 1
+vn 1 0 0
+g one
+f 1/1/1 2/2/1 3/3/2
+f 1/1/1 3/3/2 4/4/1
+g two
+usemtl other
+f 2/5 5/6 6/7 3/8
+"""
+
+# The diagonal gets a vertex at its middle, and the first triangle is cut from there to vertex 2; the second half moves away.
+FACES = BEFORE[BEFORE.index("g one") :]
+AFTER = (
+    BEFORE.replace("vt 0 0\n", "v 0.5 0.5 0 0.5 0 0.5\nvt 0 0\n")
+    .replace("vn 0 0 1", "vt 0.25 0.25\nvt 0.5 -0.5\nvt 0.5 0\nvt 0.25 -0.25\nvn 0 0 1")
+    .replace("g one", "vn 0.7 0 0.7\ng one")
+    .replace("f 1/1/1 2/2/1 3/3/2", "f 1/1/1 2/2/1 7/9/3\nf 2/10/1 3/11/2 7/12/3")
+    .replace("f 1/1/1 3/3/2 4/4/1", "f 1/1/1 7/9/3 3/3/2 4/4/1")
+)
+
+
+def check(tmp_path, after, before=BEFORE, cuts=True, **options):
+    (tmp_path / "in.obj").write_text(before)
+    (tmp_path / "out.obj").write_text(after)
+    return check_atlas.check(tmp_path / "in.obj", tmp_path / "out.obj", cuts=cuts, **options)
+
+
+def problems(tmp_path, after, before=BEFORE, **options):
+    return " | ".join(check(tmp_path, after, before, **options)["problems"])
+
+
+# Apart from each other, as a result has to be.
+APART = AFTER.replace("vt 0.5 -0.5", "vt 0.5 -0.6").replace("vt 0.5 0\nvt 0.25 -0.25", "vt 0.5 -0.1\nvt 0.25 -0.35")
+
+
+def test_good_cut(tmp_path):
+    found = check(tmp_path, APART)
+    assert found["problems"] == []
+    assert (found["charts"], found["flipped"], found["contacts"]) == (3, 0, 0)
+    assert found["faces"] == 4
+
+
+def test_lengths_of_seams(tmp_path):
+    """Before: the edge between the square and the quad. After: the cut and the half diagonal as well."""
+    found = check(tmp_path, APART)
+    diagonal = (4 + 1 + 0.25) ** 0.5
+    assert found["bl_in"] == pytest.approx(1 / diagonal)
+    assert found["bl"] == pytest.approx((1 + 2 * 0.5**0.5) / diagonal)
+
+
+def test_cut_is_refused_where_none_is_allowed(tmp_path):
+    assert "records other than UVs differ" in problems(tmp_path, APART, cuts=False)
+
+
+def test_contact_after_a_cut(tmp_path):
+    assert "borders" in problems(tmp_path, AFTER.replace("vt 0.5 -0.5", "vt 0.5 0.4"))
+
+
+def test_moved_input_vertex(tmp_path):
+    assert "positions of the input" in problems(tmp_path, APART.replace("v 2 1 0", "v 2 1 1e-9"))
+    assert "positions of the input" in problems(tmp_path, APART.replace("v 0 0 0 1 0 0", "v 0 0 0 1 0 0.1"))
+
+
+@pytest.mark.parametrize("moved", ["v 0.5 0.5 1e-6", "v 0.5 0.51 0", "v 0.6 0.61 0"])
+def test_new_vertex_off_the_surface(tmp_path, moved):
+    assert "surface" in problems(tmp_path, APART.replace("v 0.5 0.5 0", moved))
+
+
+def test_lost_part(tmp_path):
+    assert "face 0 is not tiled" in problems(tmp_path, APART.replace("f 2/10/1 3/11/2 7/12/3\n", ""))
+    assert "face 1 is lost" in problems(tmp_path, APART.replace("f 1/1/1 7/9/3 3/3/2 4/4/1\n", ""))
+    assert "face 2 is lost" in problems(tmp_path, APART.replace("f 2/5 5/6 6/7 3/8\n", ""))
+
+
+def test_part_that_is_there_twice(tmp_path):
+    part = "f 2/10/1 3/11/2 7/12/3\n"
+    assert "surface" in problems(tmp_path, APART.replace(part, part + part))
+
+
+def test_part_that_is_turned_over(tmp_path):
+    turned = APART.replace("f 2/10/1 3/11/2 7/12/3", "f 7/12/3 3/11/2 2/10/1")
+    assert "face 0 is not tiled" in problems(tmp_path, turned)
+
+
+def test_edge_divided_on_one_side_only(tmp_path):
+    one_sided = APART.replace("f 1/1/1 7/9/3 3/3/2 4/4/1", "f 1/1/1 3/3/2 4/4/1")
+    assert "edges of length 2.83 are open" in problems(tmp_path, one_sided)
+
+
+def test_part_in_another_group(tmp_path):
+    moved = APART.replace("g two\nusemtl other\n", "").replace("f 1/1/1 7/9", "g two\nusemtl other\nf 1/1/1 7/9")
+    assert "another group" in problems(tmp_path, moved)
+    assert "records other than" in problems(tmp_path, APART.replace("usemtl other\n", ""))
+
+
+def test_normals(tmp_path):
+    assert "normals of corners" in problems(tmp_path, APART.replace("f 2/10/1 3/11/2", "f 2/10/2 3/11/2"))
+    assert "normals of corners" in problems(tmp_path, APART.replace("f 2/5 5/6 6/7 3/8", "f 2/5/1 5/6/1 6/7/1 3/8/1"))
+    assert "normals of the input" in problems(tmp_path, APART.replace("vn 1 0 0", "vn 1 0 0.1"))
+
+
+def test_seam_that_is_closed(tmp_path):
+    """The quad's side 2-3 gets the UVs that the triangle has there."""
+    closed = AFTER.replace("f 2/5 5/6 6/7 3/8", "f 2/10 5/6 6/7 3/11").replace("vt 0.6 0\n", "vt 0.6 0.6\n")
+    assert "seams: 1 removed" in problems(tmp_path, closed)
+
+
+def test_polygon_that_is_not_flat_may_be_divided(tmp_path):
+    """Across a diagonal, with a new vertex on one of its halves."""
+    inside = APART.replace("vt 0 0\n", "v 1.5 0.5 0.25\nvt 0 0\n").replace("vn 0 0 1", "vt 0.8 0.25\nvn 0 0 1")
+    parts = "\n".join(f"f {a} {b} 8/13" for a, b in (("2/5", "5/6"), ("5/6", "6/7"), ("6/7", "3/8"), ("3/8", "2/5")))
+    assert problems(tmp_path, inside.replace("f 2/5 5/6 6/7 3/8", parts)) == ""
+
+
+def test_identical_faces_are_told_apart(tmp_path):
+    """A face that is there twice, front and front: each has parts of its own."""
+    before = BEFORE.replace("g two", "f 1/1/1 3/3/2 4/4/1\ng two")
+    after = APART.replace("g two", "f 1/1/1 7/9/3 3/3/2 4/4/1\ng two")
+    found = problems(tmp_path, after, before)
+    assert "surface" not in found
+    assert "file" not in found
+
+
+def test_collection(tmp_path):
+    """Two models in one atlas: beside each other they are good, one above the other they are not."""
+    lines = APART.splitlines()
+    beside = [f"vt {float(line.split()[1]) + 2} {line.split()[2]}" if line.startswith("vt ") else line for line in lines]
+    for name, text in (("in", BEFORE), ("a", APART), ("b", "\n".join(beside) + "\n")):
+        (tmp_path / f"{name}.obj").write_text(text)
+
+    def run(*outputs):
+        return check_atlas.check([tmp_path / "in.obj"] * 2, [tmp_path / f"{name}.obj" for name in outputs], cuts=True)
+
+    good = run("a", "b")
+    assert (good["problems"], good["charts"], good["faces"]) == ([], 6, 8)
+    assert "borders" in " ".join(run("a", "a")["problems"])
