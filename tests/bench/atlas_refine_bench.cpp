@@ -1,8 +1,9 @@
 // What a refined atlas is held against: its charts' own optimum of E_d, and the cost of one Newton iteration with stock Eigen.
 //
-//   atlas_refine_bench IN.obj [RESULT.obj GAP box_diagonal|long_side]...
+//   atlas_refine_bench IN.obj [RESULT.obj GAP box_diagonal|long_side]... [RESULT.obj newton only]...
 //
-// GAP is the gap that the result keeps, as its report has it. Prints one line of JSON.
+// GAP is the gap that the result keeps, as its report has it; of a result that was cut only the Newton iteration is timed. Prints
+// one line of JSON.
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
@@ -11,6 +12,7 @@
 #include <ctime>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -150,11 +152,17 @@ Json attempt(const std::function<Json()>& work) {
   }
 }
 
-Json compare(const std::string& path, const Gap& gap) {
+Json compare(const std::string& path, const std::optional<Gap>& gap) {
   const Charts result(path);
   Json out = stock_newton(result.charts);
-  out["optimum"] = optimum_from_result(result, gap);
+  if (gap) out["optimum"] = optimum_from_result(result, *gap);
   return out;
+}
+
+/// What the command line says about a result: GAP and its unit, or "newton only".
+std::optional<Gap> gap_of(const std::string& value, const std::string& unit) {
+  if (value == "newton") return {};
+  return Gap{std::atof(value.c_str()), unit == "box_diagonal" ? Gap::Unit::BoxDiagonal : Gap::Unit::LongSide};
 }
 
 }  // namespace
@@ -163,17 +171,19 @@ Json compare(const std::string& path, const Gap& gap) {
 int main(int argc, char** argv) {
   using namespace atlas_refine;
   if (argc < 2 || (argc - 2) % 3 != 0) {
-    std::fputs("usage: atlas_refine_bench IN.obj [RESULT.obj GAP box_diagonal|long_side]...\n", stderr);
+    std::fputs("usage: atlas_refine_bench IN.obj [RESULT.obj GAP box_diagonal|long_side | RESULT.obj newton only]...\n", stderr);
     return 2;
   }
-  Json out;
-  out["input"] = attempt([&] { return Json{{"optimum", optimum_from_input(Charts(argv[1]))}}; });
-  out["results"] = Json::array();
+  bool any_gap = argc == 2;
+  Json results = Json::array();
   for (int i = 2; i < argc; i += 3) {
-    const bool diagonal = std::string(argv[i + 2]) == "box_diagonal";
-    const Gap gap{std::atof(argv[i + 1]), diagonal ? Gap::Unit::BoxDiagonal : Gap::Unit::LongSide};
-    out["results"].push_back(attempt([&] { return compare(argv[i], gap); }));
+    const std::optional<Gap> gap = gap_of(argv[i + 1], argv[i + 2]);
+    any_gap = any_gap || gap;
+    results.push_back(attempt([&] { return compare(argv[i], gap); }));
   }
+  Json out;
+  out["input"] = any_gap ? attempt([&] { return Json{{"optimum", optimum_from_input(Charts(argv[1]))}}; }) : Json::object();
+  out["results"] = results;
   std::puts(out.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
   return 0;
 }

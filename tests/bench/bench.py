@@ -14,6 +14,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import table
@@ -29,6 +30,7 @@ FOLDERS = {
 }
 REQUIRED_FOLDERS = list(FOLDERS)[:3]
 GOALS = [Goal(0.80), Goal(0.90), Goal(0.80, "square"), Goal(0.85), Goal(0.95)]
+GOALS_OF_CUTS = {"": [Goal(0.80)], "disk_deep": [Goal(0.85), Goal(0.90), Goal(0.80, "square")]}  # for every folder; for one
 QUICK_TRIANGLES = 6000
 
 
@@ -47,6 +49,15 @@ def mesh_root():
 def goal(text):
     bound, _, aspect = text.partition(":")
     return Goal(float(bound), aspect or "free")
+
+
+def goals_of(arguments, folder):
+    """What is asked of the files of a folder; results with and without cuts of one bound beside each other."""
+    cuts = GOALS_OF_CUTS[""] + GOALS_OF_CUTS.get(folder, [])
+    asked = {"none": arguments.bounds or GOALS, "rectangles": arguments.bounds or cuts}
+    goals = [replace(goal, seams=seams) for seams in arguments.seams for goal in asked[seams]]
+    order = [(goal.bound, goal.aspect) for goal in [*(arguments.bounds or GOALS), *cuts]]
+    return sorted(goals, key=lambda goal: (order.index((goal.bound, goal.aspect)), goal.cuts))
 
 
 def meshes(arguments, folders):
@@ -68,7 +79,7 @@ def guarded(work, rows_of_failure):
 
 def measure_guarded(build, folder, path, goals):
     def failed(reason):
-        return [Row(folder, path.stem, goal.name, count_triangles(path), reason=reason) for goal in goals]
+        return [Row(folder, path.stem, goal.name, goal.seams, count_triangles(path), reason=reason) for goal in goals]
 
     return guarded(lambda: measure_file(build, folder, path, goals), failed)
 
@@ -78,7 +89,7 @@ def run_table(arguments, out):
     print(table.header(), flush=True)
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
         tasks = [
-            pool.submit(measure_guarded, arguments.build, folder, path, arguments.bounds)
+            pool.submit(measure_guarded, arguments.build, folder, path, goals_of(arguments, folder))
             for folder, path in meshes(arguments, arguments.folders)
         ]
         for task in tasks:
@@ -86,7 +97,7 @@ def run_table(arguments, out):
                 rows.append(row)
                 print(table.line(row), flush=True)
             (out / "bench.json").write_text(json.dumps([row.as_json() for row in rows], indent=1))
-    order = [goal.name for goal in arguments.bounds]
+    order = [goal.name for folder in FOLDERS for goal in goals_of(arguments, folder)]
     rows.sort(key=lambda row: order.index(row.goal))
     lines = table.summary(rows)
     (out / "bench.md").write_text(table.markdown(rows, lines))
@@ -96,7 +107,11 @@ def run_table(arguments, out):
 
 def run_determinism(arguments):
     """The required folders at the first bound: two runs with one seed, and two threads."""
-    at, wrong, count, longest = arguments.bounds[0], 0, 0, (0.0, "")
+    return sum(determinism_at(replace((arguments.bounds or GOALS)[0], seams=seams), arguments) for seams in arguments.seams)
+
+
+def determinism_at(at, arguments):
+    wrong, count, longest = 0, 0, (0.0, "")
     for folder, path in meshes(arguments, [f for f in arguments.folders if f in REQUIRED_FOLDERS]):
         difference, seconds = guarded(lambda path=path: outputs_differ(arguments.build, path, at), lambda why: (why, [0.0]))
         count, wrong = count + 1, wrong + bool(difference)
@@ -119,7 +134,8 @@ def run_bad_input(arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--folders", nargs="+", choices=FOLDERS, default=list(FOLDERS))
-    parser.add_argument("--bounds", nargs="+", type=goal, default=GOALS, help="0.8, 0.8:square, 0.8:16:9, ...")
+    parser.add_argument("--bounds", nargs="+", type=goal, help="0.8, 0.8:square, 0.8:16:9, ... [what is asked of the folder]")
+    parser.add_argument("--seams", nargs="+", choices=["none", "rectangles"], default=["none", "rectangles"])
     parser.add_argument("--files", default="*", help="pattern of file names, without .obj")
     parser.add_argument("--jobs", type=int, default=1, help="files at a time; timings are honest only with 1")
     parser.add_argument("--quick", action="store_true", help=f"only files of at most {QUICK_TRIANGLES} triangles")

@@ -3,28 +3,40 @@
 import json
 import math
 import os
+import signal
 import subprocess
+import sys
 import tempfile
 import time
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import check_atlas
 
 PROGRAM_LIMIT_S = 180  # three times what is allowed
 HELPER_LIMIT_S = 900
+SAFETY_NETS = ("tutte", "extra corner")  # words of the report's repairs that tell of one
 
 
 @dataclass(frozen=True)
 class Goal:
-    """A bound and the shape of the box it is measured in."""
+    """A bound, the shape of the box it is measured in, where seams may come from, and further options of the program."""
 
     bound: float
     aspect: str = "free"
+    seams: str = "none"
+    options: tuple = ()
 
     @property
     def name(self):
-        return f"{self.bound:.2f} {self.aspect}"
+        return f"{self.bound:.2f} {self.aspect}" + (" rect" if self.cuts else "")
+
+    @property
+    def cuts(self):
+        return self.seams != "none"
+
+    def command_line(self):
+        return ["--pe-bound", str(self.bound), "--aspect", self.aspect, "--seams", self.seams, *self.options]
 
 
 @dataclass
@@ -34,18 +46,26 @@ class Row:
     folder: str
     file: str
     goal: str
-    triangles: int = 0
-    charts: int = 0
+    seams: str = "none"
+    triangles: int = 0  # of the input
+    charts_in: int = 0
+    charts: int = 0  # CN
+    smallest: float = math.nan  # SA
+    small_charts: int = 0  # N3
     reason: str = ""
     how: str = "failed"
     valid: bool = False
     met: bool = False
-    added_seams: int | None = None
+    added_seams: int | None = None  # edges; with cuts not counted
+    bl_in: float = math.nan
+    bl: float = math.nan
+    nets: int = 0  # safety nets that were used
     re_embedded: int = 0  # charts that overlapped themselves
     pe_in: float = math.nan
     pe: float = math.nan
     e_d_in: float = math.nan
     e_d: float = math.nan
+    e_2: float = math.nan
     optimum: float = math.nan  # E_d of the charts under the engine without a bound
     stretch_99: float = math.nan
     stretch_max: float = math.nan
@@ -57,10 +77,27 @@ class Row:
     seconds: float = math.nan  # inside refine()
     cpu_seconds: float = math.nan  # the whole process, files read and written as well
     newton_seconds: float = math.nan  # one Newton iteration with stock Eigen
+    peak_bytes: float = math.nan
+    stages: dict = field(default_factory=dict)  # seconds of each
+    repairs: list = field(default_factory=list)
+
+    @property
+    def cuts(self):
+        return self.seams != "none"
 
     @property
     def ok(self):
-        return self.valid and self.met and self.added_seams == 0
+        return self.valid and self.met and (self.cuts or self.added_seams == 0)
+
+    @property
+    def growth(self):
+        """(E_out - E_in) / E_in."""
+        return self.e_d / self.e_d_in - 1
+
+    @property
+    def added_length(self):
+        """(BL_out - BL_in) / BL_in; not a number where there is no seam to begin with."""
+        return self.bl / self.bl_in - 1 if self.bl_in > 0 else math.nan
 
     @property
     def extra(self):
@@ -81,7 +118,8 @@ class Row:
         return self.time / self.newton_seconds
 
     def as_json(self):
-        numbers = asdict(self) | {"ok": self.ok, "extra": self.extra, "newton_multiple": self.newton_multiple}
+        figures = ("ok", "growth", "added_length", "extra", "newton_multiple")
+        numbers = asdict(self) | {name: getattr(self, name) for name in figures}
         return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in numbers.items()}
 
 
@@ -91,30 +129,46 @@ class Run:
 
     exit_code: int
     message: str
-    report: dict
-    cpu_seconds: float
+    report: dict = field(default_factory=dict)
+    cpu_seconds: float = math.nan
+    peak_bytes: float = math.nan
 
     @property
     def done(self):
         return self.exit_code == 0
 
 
-def refine(program, mesh, output, goal, threads=1):
-    """Runs the program; its report lies beside `output`."""
-    report = output.with_suffix(".json")
-    options = ["--pe-bound", str(goal.bound), "--aspect", goal.aspect, "--threads", str(threads), "--report", report]
-    command = [program, mesh, "-o", output, *options]
-    before = os.times()
+def run_limited(command, seconds):
+    """(exit code, stderr), None where there is no end in time; whatever it started ends with it."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True)
     try:
-        run = subprocess.run(command, capture_output=True, timeout=PROGRAM_LIMIT_S, check=False)
-    except subprocess.TimeoutExpired:
-        return Run(-1, f"no end after {PROGRAM_LIMIT_S} s", {}, math.nan)
-    after = os.times()
-    cpu = after.children_user + after.children_system - before.children_user - before.children_system
-    message = run.stderr.decode(errors="replace").strip().replace(f"{mesh}: ", "").removeprefix("atlas-refine: ")
-    if run.returncode == 0:
-        return Run(0, message, json.loads(report.read_text()), cpu)
-    return Run(run.returncode, f"exit {run.returncode}: {message or 'no message'}", {}, cpu)
+        message = process.communicate(timeout=seconds)[1].decode(errors="replace").strip()
+    except BaseException as why:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+        if isinstance(why, subprocess.TimeoutExpired):
+            return None
+        raise
+    return process.returncode, message
+
+
+def refine(program, meshes, output, goal, threads=1):
+    """Runs the program on one file or on a collection; its report lies beside `output`."""
+    meshes = [meshes] if isinstance(meshes, str | Path) else meshes
+    report, figures = output.with_suffix(".json"), output.with_suffix(".figures")
+    launcher = [sys.executable, "-S", "-E", Path(__file__).with_name("run_measured.py"), figures]
+    command = [program, *meshes, "-o", output, *goal.command_line(), "--threads", str(threads), "--report", report]
+    ended = run_limited([*launcher, *command], PROGRAM_LIMIT_S)
+    if ended is None:
+        return Run(-1, f"no end after {PROGRAM_LIMIT_S} s")
+    code, message = ended
+    for mesh in meshes:
+        message = message.replace(f"{mesh}: ", "")
+    message = message.removeprefix("atlas-refine: ")
+    used = json.loads(figures.read_text())
+    if code == 0:
+        return Run(0, message, json.loads(report.read_text()), **used)
+    return Run(code, f"exit {code}: {message or 'no message'}", **used)
 
 
 def number(value):
@@ -123,7 +177,11 @@ def number(value):
 
 def fill_from_report(row, report):
     before, after = report["before"], report["after"]
-    row.how, row.charts = report["intervention"], after["chart_count"]
+    row.how, row.charts_in, row.charts = report["intervention"], before["chart_count"], after["chart_count"]
+    row.smallest, row.small_charts = number(after["smallest_chart"]), after["small_charts"]
+    row.bl_in, row.bl = number(before["boundary_length"]), number(after["boundary_length"])
+    row.repairs = report["repairs"]
+    row.nets = sum(any(word in line.lower() for word in SAFETY_NETS) for line in report["repairs"])
     row.re_embedded = sum(chart["re_embedded"] for chart in report["charts"])
     row.pe_in, row.pe = number(before["pe_fixed_aspect"]), number(after["pe_fixed_aspect"])
     row.e_d_in, row.e_d = number(before["distortion"]), number(after["distortion"])
@@ -131,7 +189,9 @@ def fill_from_report(row, report):
     row.gap = report["gap"]["value"]
     row.gap_within_in, row.gap_within = number(before["gap_within"]), number(after["gap_within"])
     row.price, row.iterations = number(report["price"]), report["iterations"]
+    row.e_2 = number(after["distortion_to_input"])
     row.seconds = report["seconds"]["refine"]
+    row.stages = {stage["stage"]: stage["seconds"] for stage in report["timings"]}
 
 
 def gap_to_check(report, goal):
@@ -144,15 +204,14 @@ def gap_to_check(report, goal):
 
 def fill_from_check(row, mesh, output, goal, report):
     aspect = 1.0 if goal.aspect == "square" else 0.0
-    found = check_atlas.check(mesh, output, goal.bound, aspect, gap_to_check(report, goal))
+    found = check_atlas.check(mesh, output, goal.bound, aspect, gap_to_check(report, goal), cuts=goal.cuts)
     problems = [problem for problem in found["problems"] if not problem.startswith("PE:")]
-    row.triangles, row.added_seams = found.get("triangles", 0), found.get("added_seams")
+    row.added_seams = found.get("added_seams")
     row.valid, row.met = not problems, found["ok"] or "PE" not in " ".join(found["problems"])
     row.reason = "; ".join(found["problems"])
 
 
 def count_triangles(mesh):
-    """Of the input, for rows that have no result."""
     lines = (line.split(b"#")[0].split() for line in Path(mesh).read_bytes().splitlines() if line.startswith(b"f"))
     return sum(len(tokens) - 3 for tokens in lines)
 
@@ -160,8 +219,8 @@ def count_triangles(mesh):
 def fill_from_helper(helper, mesh, results):
     """The charts' own optimum, the lesser of that found from the input and from the result, and the stock Newton iteration."""
     command = [helper, mesh]
-    for _, output, report in results:
-        command += [output, repr(report["gap"]["value"]), report["gap"]["unit"]]
+    for row, output, report in results:
+        command += [output, "newton", "only"] if row.cuts else [output, repr(report["gap"]["value"]), report["gap"]["unit"]]
     try:
         run = subprocess.run(command, capture_output=True, timeout=HELPER_LIMIT_S, check=True)
         answer = json.loads(run.stdout)
@@ -169,7 +228,7 @@ def fill_from_helper(helper, mesh, results):
         answer = {"input": {}, "results": [{"error": f"optimum: {error}"} for _ in results]}
     for (row, _, _), result in zip(results, answer["results"], strict=True):
         optima = [part["optimum"] for part in (answer["input"], result) if part.get("optimum") is not None]
-        row.optimum = min(optima, default=math.nan)
+        row.optimum = math.nan if row.cuts else min(optima, default=math.nan)
         row.newton_seconds = number(result.get("newton_seconds"))
         if "error" in result:
             row.reason = "; ".join(filter(None, [row.reason, result["error"]]))
@@ -178,15 +237,15 @@ def fill_from_helper(helper, mesh, results):
 def measure_file(build, folder, mesh, goals):
     """One row per goal."""
     with tempfile.TemporaryDirectory(prefix="atlas-refine-bench-") as scratch:
-        rows, results = [], []
+        rows, results, triangles = [], [], count_triangles(mesh)
         for k, goal in enumerate(goals):
-            row = Row(folder, mesh.stem, goal.name)
+            row = Row(folder, mesh.stem, goal.name, goal.seams, triangles)
             rows.append(row)
             output = Path(scratch) / f"{k}.obj"
             run = refine(build / "atlas-refine", mesh, output, goal)
-            row.cpu_seconds = run.cpu_seconds
+            row.cpu_seconds, row.peak_bytes = run.cpu_seconds, run.peak_bytes
             if not run.done:
-                row.reason, row.triangles = run.message, count_triangles(mesh)
+                row.reason = run.message
                 continue
             fill_from_report(row, run.report)
             fill_from_check(row, mesh, output, goal, run.report)

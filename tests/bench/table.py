@@ -3,6 +3,8 @@
 import math
 import statistics
 
+from table_rectangles import rectangle_lines
+
 LOW_DISTORTION = 1.2  # inputs above this E_d are left out of the means
 EXTRA_LIMIT = {"disk": 0.010, "disk_deep": 0.013, "atlas-clean": 0.007}  # mean extra E_d at 0.80 free
 TIME_LIMITS = ((21_500, 3.0), (101_000, 20.0))  # up to so many triangles, seconds on one thread from a valid start
@@ -16,18 +18,23 @@ def text(value, form):
 
 COLUMNS = (
     ("file", lambda r: f"{r.folder}/{r.file}"[:48], "48"),
-    ("bound", lambda r: r.goal, "11"),
+    ("bound", lambda r: r.goal, "16"),
     ("tris", lambda r: str(r.triangles), ">7"),
-    ("charts", lambda r: str(r.charts), ">6"),
+    ("CN in", lambda r: str(r.charts_in), ">5"),
+    ("CN", lambda r: str(r.charts), ">4"),
+    ("SA %", lambda r: text(100 * r.smallest, ".2f"), ">6"),
+    ("N3", lambda r: str(r.small_charts), ">3"),
     ("how", lambda r: r.how, "9"),
     ("emb", lambda r: str(r.re_embedded), ">3"),
     ("valid", lambda r: "yes" if r.valid else "NO", "5"),
     ("met", lambda r: "yes" if r.met else "NO", "3"),
-    ("seams+", lambda r: text(r.added_seams, "d"), ">6"),
+    ("nets", lambda r: str(r.nets), ">4"),
+    ("BL+ %", lambda r: text(100 * r.added_length, ".1f"), ">6"),
     ("PE in", lambda r: text(r.pe_in, ".3f"), ">6"),
     ("PE", lambda r: text(r.pe, ".4f"), ">6"),
     ("E_d in", lambda r: text(r.e_d_in, ".4f"), ">8"),
     ("E_d", lambda r: text(r.e_d, ".4f"), ">7"),
+    ("dE %", lambda r: text(100 * r.growth, ".3f"), ">7"),
     ("extra", lambda r: text(r.extra, ".4f"), ">7"),
     ("str99", lambda r: text(r.stretch_99, ".2f"), ">6"),
     ("strmax", lambda r: text(r.stretch_max, ".2f"), ">7"),
@@ -37,11 +44,14 @@ COLUMNS = (
     ("s", lambda r: text(r.seconds, ".2f"), ">6"),
     ("cpu s", lambda r: text(r.cpu_seconds, ".2f"), ">6"),
     ("xNewton", lambda r: text(r.newton_multiple, ".0f"), ">7"),
+    ("MiB", lambda r: text(r.peak_bytes / 2**20, ".0f"), ">5"),
     ("reason", lambda r: r.reason, ""),
 )
-NOTES = """emb: charts that overlapped themselves and were embedded anew. extra: E_d over the charts' own optimum (the engine without a bound).
+NOTES = """emb: charts that overlapped themselves and were embedded anew. nets: safety nets of the road that cuts. BL+ %: seams added / seams before.
+dE %: (E_d - E_d in) / E_d in. extra: E_d over the charts' own optimum (the engine without a bound), of results without a cut.
 gap %, within: per cent of the box diagonal, guaranteed between charts, measured within. s: inside refine(), one thread. cpu s: processor
-time of the whole process, files included. xNewton: the lesser of both over one Newton iteration with stock Eigen on the same charts."""
+time of the whole process, files included. xNewton: the lesser of both over one Newton iteration with stock Eigen on the same charts.
+MiB: peak memory of the process."""
 
 
 def header():
@@ -72,7 +82,7 @@ def group_line(rows):
     """Counts and means of the rows of one folder (or of several) at one bound."""
     low = [row for row in rows if row.ok and row.e_d_in < LOW_DISTORTION]
     squeezed = [row for row in low if row.how == "squeezed"]
-    how = {name: sum(row.how == name for row in rows) for name in ("unchanged", "moved", "squeezed", "failed")}
+    how = {name: sum(row.how == name for row in rows) for name in ("unchanged", "moved", "squeezed", "cut", "failed")}
     return (
         f"ok {sum(row.ok for row in rows)} of {len(rows)} ("
         + ", ".join(f"{count} {name}" for name, count in how.items() if count)
@@ -97,7 +107,7 @@ def summary(rows):
         required = [row for row in at_goal if row.folder in EXTRA_LIMIT]
         if len(required) < len(at_goal) or len({row.folder for row in required}) > 1:
             out.append(f"  {'/'.join(EXTRA_LIMIT)}: ok {sum(row.ok for row in required)} of {len(required)}")
-    out += ["", *time_lines(rows), *extreme_lines(rows)]
+    out += ["", *time_lines(rows), *extreme_lines(rows), "", *rectangle_lines(rows, EXTRA_LIMIT)]
     failures = [row for row in rows if not row.ok]
     out += ["", f"failures: {len(failures)} of {len(rows)}"]
     out += [f"  {row.folder}/{row.file} at {row.goal}: {row.reason or 'seams added'}" for row in failures]

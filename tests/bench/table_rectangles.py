@@ -1,0 +1,88 @@
+"""The benchmark's summary of results that cut, beside what the paper says of its own."""
+
+import math
+
+LOW_DISTORTION = 1.2  # inputs above this E_d are left out of the mean growth
+GROWTH_LIMIT = 0.001  # mean of (E_out - E_in) / E_in; the paper: 0.000533
+LENGTH_FOLDER = "disk_deep"  # seams nearest to those of the paper's inputs
+LENGTH_MEAN, LENGTH_MOST = 0.787, 1.68  # added seams / seams: the paper's figures
+PE_MEAN = 0.823  # the paper's
+NETS_MOST = 0.1  # files with a safety net / files
+TIME_LIMITS = ((21_500, 2.0), (70_500, 8.0), (101_000, 12.0))  # up to so many triangles, seconds on one thread
+MEMORY_LIMIT = 2**30
+
+
+def finite(values):
+    return [value for value in values if math.isfinite(value)]
+
+
+def mean(values):
+    good = finite(values)
+    return sum(good) / len(good) if good else math.nan
+
+
+def most(values):
+    return max(finite(values), default=math.nan)
+
+
+def shown(value, form):
+    return format(value, form) if math.isfinite(value) else "-"
+
+
+def verdict(value, limit, form, at_least=False):
+    """'0.0421 (at most 0.1000: yes)'."""
+    if math.isnan(value):
+        return "-"
+    good = value >= limit if at_least else value <= limit
+    return f"{value:{form}} ({'at least' if at_least else 'at most'} {limit:{form}}: {'yes' if good else 'NO'})"
+
+
+def rectangle_lines(rows, required):
+    """Every goal of results that cut; `required` names the folders that targets are about."""
+    out = []
+    for goal in dict.fromkeys(row.goal for row in rows if row.cuts):
+        at_goal = [row for row in rows if row.goal == goal and row.folder in required]
+        if at_goal:
+            folders = "/".join(dict.fromkeys(row.folder for row in at_goal))
+            out += [f"cuts at {goal}, {folders}; what is asked is asked at 0.80", *goal_lines(at_goal)]
+    return out
+
+
+def goal_lines(rows):
+    done = [row for row in rows if row.ok]
+    low = [row for row in done if row.e_d_in < LOW_DISTORTION]
+    deep = [row for row in done if row.folder == LENGTH_FOLDER]
+    nets = [row for row in rows if row.nets]
+    return [
+        f"  valid and at the bound: {len(done)} of {len(rows)}: {'yes' if len(done) == len(rows) else 'NO'}",
+        f"  mean (E_out - E_in)/E_in, {len(low)} files with E_in < {LOW_DISTORTION}: "
+        + verdict(mean([r.growth for r in low]), GROWTH_LIMIT, ".4%")
+        + f"; largest {shown(most([r.growth for r in low]), '.3%')}; mean E_2 {shown(mean([r.e_2 for r in low]), '.4f')}",
+        f"  added seams, {LENGTH_FOLDER}: mean {verdict(mean([r.added_length for r in deep]), LENGTH_MEAN, '.1%')}, "
+        f"most {verdict(most([r.added_length for r in deep]), LENGTH_MOST, '.0%')}; "
+        f"N3 mean {shown(mean([r.small_charts for r in deep]), '.1f')}, SA mean {shown(mean([r.smallest for r in deep]), '.2%')}",
+        f"  PE mean {verdict(mean([r.pe for r in done]), PE_MEAN, '.1%', at_least=True)}",
+        f"  files with a safety net: {len(nets)} of {len(rows)}: "
+        + verdict(len(nets) / len(rows), NETS_MOST, ".0%")
+        + "".join(f"\n    {r.folder}/{r.file}: {r.nets}" for r in nets),
+        *time_and_memory_lines(rows),
+    ]
+
+
+def time_and_memory_lines(rows):
+    out, least = [], 0
+    for up_to, limit in TIME_LIMITS:
+        group = [row for row in rows if least < row.triangles <= up_to and math.isfinite(row.time)]
+        slowest, newtons = most([row.time for row in group]), most([row.newton_multiple for row in group])
+        slow = [f"{row.folder}/{row.file} {row.time:.1f} s" for row in group if row.time > limit]
+        out.append(
+            f"  {least}-{up_to} triangles: at most {limit:g} s on {len(group) - len(slow)} of {len(group)}"
+            f"; slowest {shown(slowest, '.2f')} s, most Newton iterations {shown(newtons, '.0f')}"
+            + (": not " + ", ".join(slow) if slow else "")
+        )
+        least = up_to
+    peak = max(rows, key=lambda row: row.peak_bytes if math.isfinite(row.peak_bytes) else 0)
+    return [
+        *out,
+        f"  peak memory: {verdict(peak.peak_bytes / 2**20, MEMORY_LIMIT / 2**20, '.0f')} MiB ({peak.folder}/{peak.file})",
+    ]
