@@ -40,7 +40,7 @@ def has_uneven_scale(obj):
 def read_atlas(obj, uv_map):
     """The mesh and the named UV map as it is now; edit mode's pending changes included."""
     if obj.mode == "EDIT":
-        return _read_edit_mesh(bmesh.from_edit_mesh(obj.data), uv_map)
+        return read_edit_mesh(bmesh.from_edit_mesh(obj.data), uv_map)
     return _read_mesh(obj.data, uv_map)
 
 
@@ -80,7 +80,7 @@ def _read_mesh(mesh, uv_map):
     return AtlasArrays(positions.reshape(-1, 3), offsets, corner_vertices, uvs)
 
 
-def _read_edit_mesh(mesh, uv_map):
+def read_edit_mesh(mesh, uv_map):
     layer = _edit_layer(mesh, uv_map)
     mesh.verts.index_update()
     positions = np.array([vert.co for vert in mesh.verts], dtype=np.float32).reshape(-1, 3)

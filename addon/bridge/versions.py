@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every difference between the Blender versions that the add-on runs on, told apart by features."""
 
+from contextlib import contextmanager
+
 import numpy as np
 
 
@@ -20,6 +22,54 @@ def write_uvs(layer, uvs):
         layer.uv.foreach_set("vector", uvs.ravel())
     else:
         layer.data.foreach_set("uv", uvs.ravel())
+
+
+def interpolate_corner(loop, face, with_vertex):
+    """Gives a BMesh corner, and its vertex where asked for, what the face holds at the vertex's place."""
+    try:
+        loop.copy_from_face_interp(face, with_vertex, False)
+    except TypeError:  # 3.4 wants the three as one argument
+        loop.copy_from_face_interp((face, with_vertex, False))
+
+
+def custom_normals(mesh):
+    """(C, 3) float32 corner normals where the mesh has its own ones, else None."""
+    if not mesh.has_custom_normals:
+        return None
+    normals = np.empty(3 * len(mesh.loops), dtype=np.float32)
+    if hasattr(mesh, "corner_normals"):  # 4.1 and later
+        mesh.corner_normals.foreach_get("vector", normals)
+    else:
+        with _auto_smooth(mesh):
+            mesh.calc_normals_split()
+            mesh.loops.foreach_get("normal", normals)
+            mesh.free_normals_split()
+    return normals.reshape(-1, 3)
+
+
+def set_custom_normals(mesh, normals):
+    """Stores what custom_normals() gave. Edges that are smooth stay smooth."""
+    with _auto_smooth(mesh):
+        mesh.normals_split_custom_set(normals.tolist())
+
+
+def copy_auto_smooth(source, target):
+    if hasattr(source, "use_auto_smooth"):  # before 4.1
+        target.use_auto_smooth = source.use_auto_smooth
+        target.auto_smooth_angle = source.auto_smooth_angle
+
+
+@contextmanager
+def _auto_smooth(mesh):
+    """Before 4.1 custom normals are there only while this is on."""
+    if not hasattr(mesh, "use_auto_smooth"):
+        yield
+        return
+    was_on, mesh.use_auto_smooth = mesh.use_auto_smooth, True
+    try:
+        yield
+    finally:
+        mesh.use_auto_smooth = was_on
 
 
 def progress_bar(layout, fraction, text):

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes a cut mesh into an object's mesh, in object mode and in edit mode: all of it, or nothing."""
+
+import bmesh
+import bpy
+
+from ..core.cuts import same_faces
+from . import versions
+from .divide import divide
+from .mesh import MeshError, read_edit_mesh
+
+
+def check_divisible(obj):
+    """Refuses an object whose faces cannot be divided without harm."""
+    if obj.mode not in {"OBJECT", "EDIT"}:
+        raise MeshError("seams that cut faces need object mode or edit mode")
+    if obj.mode == "OBJECT" and obj.data.is_editmode:
+        raise MeshError("another object of the same mesh is in edit mode")
+    if any(modifier.type == "MULTIRES" for modifier in obj.modifiers):
+        raise MeshError("seams that cut faces would spoil the sculpted levels of its Multiresolution modifier: apply it first")
+
+
+def write_cut(obj, uv_map, plan):
+    """Makes the object's mesh the plan's. Raises with the mesh as it was: everything is done to a copy first."""
+    if obj.mode == "EDIT":
+        _write_in_edit_mode(obj, uv_map, plan)
+    else:
+        _write_in_object_mode(obj.data, uv_map, plan)
+
+
+def _write_in_object_mode(mesh, uv_map, plan):
+    normals = versions.custom_normals(mesh)
+    built = bmesh.new()
+    try:
+        built.from_mesh(mesh)
+        divide(built, uv_map, plan)
+        order = _check(built, uv_map, plan)
+        built.to_mesh(mesh)
+    finally:
+        built.free()
+    if normals is not None:
+        versions.set_custom_normals(mesh, plan.directions(normals)[order])
+    mesh.update()
+
+
+def _write_in_edit_mode(obj, uv_map, plan):
+    """The edit mesh itself is divided, so that selection and edit mode's memory of shape keys stay; custom normals can only be
+    written in object mode."""
+    live = bmesh.from_edit_mesh(obj.data)
+    normals = _custom_normals_in_edit_mode(live, obj.data)
+    rehearsal = live.copy()
+    try:
+        divide(rehearsal, uv_map, plan)
+        order = _check(rehearsal, uv_map, plan)
+    finally:
+        rehearsal.free()
+    divide(live, uv_map, plan)
+    live.normal_update()
+    bmesh.update_edit_mesh(obj.data, loop_triangles=True, destructive=True)
+    if normals is not None:
+        bpy.ops.object.mode_set(mode="OBJECT")
+        versions.set_custom_normals(obj.data, plan.directions(normals)[order])
+        bpy.ops.object.mode_set(mode="EDIT")
+
+
+def _custom_normals_in_edit_mode(live, mesh):
+    flushed = bpy.data.meshes.new("Atlas Refine")
+    try:
+        live.to_mesh(flushed)
+        versions.copy_auto_smooth(mesh, flushed)
+        return versions.custom_normals(flushed)
+    finally:
+        bpy.data.meshes.remove(flushed)
+
+
+def _check(built, uv_map, plan):
+    """The plan's corner for each corner of the BMesh, which must hold what was planned to the last bit."""
+    stored = read_edit_mesh(built, uv_map)
+    corners = same_faces(stored, plan.atlas)
+    if (
+        corners is None
+        or stored.positions.tobytes() != plan.atlas.positions.tobytes()
+        or stored.corner_uvs.tobytes() != plan.atlas.corner_uvs[corners].tobytes()
+    ):
+        raise MeshError("Blender did not build the cut mesh as it was given")
+    return corners

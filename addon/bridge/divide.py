@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Divides the faces of a BMesh as a CutPlan says; whatever vertices, edges, faces and corners carry follows."""
+
+import itertools
+
+import bmesh
+
+from . import versions
+
+
+def divide(mesh, uv_map, plan):
+    """Makes the BMesh the plan's mesh, in the plan's order, with the plan's UVs in the map and its new seams marked. Where it
+    raises, the BMesh is half done: rehearse on a copy."""
+    verts, faces, changed = list(mesh.verts), list(mesh.faces), plan.changed_faces()
+    source_loops = _loops_by_corner(faces, changed)
+    verts += [None] * len(plan.vertex_sources)
+    _split_edges(mesh, plan, verts)
+    for vertex in range(plan.input_vertex_count, len(verts)):
+        if verts[vertex] is None:  # inside of a face
+            verts[vertex] = mesh.verts.new()
+    pieces = _make_pieces(mesh, plan, verts, faces, changed)
+    _fill_corners(mesh, plan, pieces, verts, source_loops)
+    _place_new_vertices(mesh, plan, verts)
+    _remove_divided(mesh, faces, set(pieces))
+    _mark_seams(mesh, plan, verts)
+    _sort(verts, mesh.verts)
+    _sort(pieces, mesh.faces)
+    _write_uvs(mesh, uv_map, plan)
+
+
+def _loops_by_corner(faces, wanted):
+    """The loops of the wanted faces by their corner's index in the whole mesh."""
+    starts = [0, *itertools.accumulate(len(face.loops) for face in faces)]
+    return {starts[face] + k: loop for face in wanted for k, loop in enumerate(faces[face].loops)}
+
+
+def _split_edges(mesh, plan, verts):
+    """BMesh's own edge split: edge marks, and whatever else an edge carries, hold for both halves."""
+    for split in plan.edge_splits:
+        last, reached = verts[split.start], 0.0
+        for vertex, fraction in zip(split.vertices, split.fractions, strict=True):
+            edge = mesh.edges.get((last, verts[split.end]))
+            _, verts[vertex] = bmesh.utils.edge_split(edge, last, (fraction - reached) / (1.0 - reached))
+            last, reached = verts[vertex], fraction
+
+
+def _make_pieces(mesh, plan, verts, faces, changed):
+    """The faces of the plan: an input face itself where split edges have made it what it shall be, else new ones."""
+    pieces, corners = [], plan.atlas.corner_vertices.tolist()
+    for source, outputs in itertools.groupby(
+        zip(plan.face_sources.tolist(), _spans(plan), strict=True), key=lambda pair: pair[0]
+    ):
+        face = faces[source]
+        if source not in changed:
+            pieces.append(face)
+            continue
+        cycles = [[verts[vertex] for vertex in corners[begin:end]] for _, (begin, end) in outputs]
+        if len(cycles) == 1 and _same_cycle(list(face.verts), cycles[0]):
+            pieces.append(face)
+        else:
+            pieces += [_make_piece(mesh, cycle, face) for cycle in cycles]
+    return pieces
+
+
+def _spans(plan):
+    """(first corner, end) of each face of the plan."""
+    return itertools.pairwise(plan.atlas.face_offsets.tolist())
+
+
+def _same_cycle(mine, theirs):
+    start = mine.index(theirs[0]) if theirs[0] in mine else 0
+    return mine[start:] + mine[:start] == theirs
+
+
+def _make_piece(mesh, cycle, face):
+    piece = mesh.faces.new(cycle, face)
+    if face.hide:
+        piece.hide_set(True)
+    elif face.select:
+        piece.select_set(True)
+    return piece
+
+
+class _Sampler:
+    """Interpolates everything that corners and vertices carry, at exact weights: a scratch triangle takes over three source
+    corners, and BMesh interpolates from it, at the place where the corner's vertex is put meanwhile."""
+
+    SIZE = 1024.0  # BMesh takes what is nearer than 1e-5 to the triangle's border for a point of the border
+
+    def __init__(self, mesh):
+        self.triangle = mesh.faces.new([mesh.verts.new(co) for co in ((0, 0, 0), (self.SIZE, 0, 0), (0, self.SIZE, 0))])
+        self.triangle.normal_update()
+
+    def fill(self, loop, sources, weights, with_vertex):
+        for k, source in enumerate(sources):
+            # Looked up each time: from Blender 4.0 on, what copy_from() wrote to counts as removed in Python.
+            if with_vertex:
+                self.triangle.verts[k].copy_from(source.vert)
+            self.triangle.loops[k].copy_from(source)
+        loop.vert.co = (self.SIZE * weights[1], self.SIZE * weights[2], 0.0)
+        versions.interpolate_corner(loop, self.triangle, with_vertex)
+
+    def remove(self, mesh):
+        verts = list(self.triangle.verts)
+        mesh.faces.remove(self.triangle)
+        for vert in verts:
+            mesh.verts.remove(vert)
+
+
+def _fill_corners(mesh, plan, pieces, verts, source_loops):
+    """Gives the corners of changed faces, and the new vertices, what the corners carry of which they are the mean."""
+    sampler, filled = _Sampler(mesh), set()
+    vertices, weights = plan.atlas.corner_vertices.tolist(), plan.corner_weights.tolist()
+    for piece, (begin, end) in zip(pieces, _spans(plan), strict=True):
+        sources = [[source_loops.get(corner) for corner in three] for three in plan.corner_sources[begin:end].tolist()]
+        if sources[0][0] is None:
+            continue  # not a changed face
+        place = {loop.vert: k for k, loop in enumerate(piece.loops)}
+        for vertex, three, means in zip(vertices[begin:end], sources, weights[begin:end], strict=True):
+            k = place[verts[vertex]]
+            heaviest = three[means.index(max(means))]
+            if piece.loops[k] != heaviest:
+                piece.loops[k].copy_from(heaviest)
+            if vertex >= plan.input_vertex_count:
+                sampler.fill(piece.loops[k], three, means, vertex not in filled)
+                filled.add(vertex)
+                _set_uvs_exactly(mesh, piece.loops[k], three, means)
+    sampler.remove(mesh)
+
+
+def _set_uvs_exactly(mesh, loop, sources, weights):
+    """What UV maps hold is compared for equality, to the last bit, by what looks for their seams."""
+    for layer in mesh.loops.layers.uv.values():
+        loop[layer].uv = _mean([source[layer].uv for source in sources], weights)
+
+
+def _mean(points, weights):
+    """As core.cuts does it: positions and the basis of shape keys stay equal."""
+    u, v, w = weights
+    return [a * u + b * v + c * w for a, b, c in zip(*points, strict=True)]
+
+
+def _place_new_vertices(mesh, plan, verts):
+    """Positions and shape keys, in double precision and rounded once."""
+    first, shapes = plan.input_vertex_count, mesh.verts.layers.shape.values()
+    positions = plan.atlas.positions[first:].tolist()
+    for k, (sources, weights) in enumerate(zip(plan.vertex_sources.tolist(), plan.vertex_weights.tolist(), strict=True)):
+        verts[first + k].co = positions[k]
+        for layer in shapes:
+            verts[first + k][layer] = _mean([verts[source][layer] for source in sources], weights)
+
+
+def _remove_divided(mesh, faces, pieces):
+    """The input faces that others have replaced, and edges that no face has any more."""
+    for face in faces:
+        if face not in pieces:
+            edges = list(face.edges)
+            mesh.faces.remove(face)
+            for edge in edges:
+                if not edge.link_faces:
+                    mesh.edges.remove(edge)
+
+
+def _sort(elements, sequence):
+    """Puts a sequence of the BMesh in the order of `elements`, which thereafter stand for others: Python holds on to places."""
+    for index, element in enumerate(elements):
+        element.index = index
+    sequence.sort()
+
+
+def _mark_seams(mesh, plan, verts):
+    for a, b in plan.new_seams.tolist():
+        edge = mesh.edges.get((verts[a], verts[b]))
+        if edge is None:
+            raise ValueError("the cut mesh does not fit the mesh: a new seam is no edge")
+        edge.seam = True
+
+
+def _write_uvs(mesh, uv_map, plan):
+    layer = mesh.loops.layers.uv[uv_map]
+    vertices, uvs = plan.atlas.corner_vertices.tolist(), plan.atlas.corner_uvs.tolist()
+    for face, (begin, end) in zip(mesh.faces, _spans(plan), strict=True):
+        loops = list(face.loops)
+        if loops[0].vert.index != vertices[begin]:
+            start = next(k for k, loop in enumerate(loops) if loop.vert.index == vertices[begin])
+            loops = loops[start:] + loops[:start]
+        for loop, uv in zip(loops, uvs[begin:end], strict=True):
+            loop[layer].uv = uv

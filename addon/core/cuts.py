@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What has to happen to a mesh so that it becomes the engine's cut mesh: which edges are split where, what each corner holds."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .atlas import AtlasArrays
+
+
+@dataclass(frozen=True)
+class EdgeSplit:
+    """New vertices on one input edge, from its end `start` on."""
+
+    start: int
+    end: int
+    vertices: list  # their indices
+    fractions: list  # of the edge, increasing
+
+
+@dataclass(frozen=True)
+class CutPlan:
+    atlas: AtlasArrays  # the mesh as it will be: the input's vertices, then the new ones
+    face_sources: np.ndarray  # (F',) the input face that each face is part of
+    corner_sources: np.ndarray  # (C', 3) input corners of that face, whose mean a corner is
+    corner_weights: np.ndarray  # (C', 3)
+    vertex_sources: np.ndarray  # (N, 3) input vertices, whose mean a new vertex is
+    vertex_weights: np.ndarray  # (N, 3)
+    edge_splits: list
+    new_seams: np.ndarray  # (S, 2) vertices
+
+    @property
+    def input_vertex_count(self):
+        return len(self.atlas.positions) - len(self.vertex_sources)
+
+    def changed_faces(self):
+        """The input faces that are divided or gain corners, as a set."""
+        faces = np.repeat(self.face_sources, np.diff(self.atlas.face_offsets))
+        gaining = faces[self.atlas.corner_vertices >= self.input_vertex_count]
+        divided = self.face_sources[1:][self.face_sources[1:] == self.face_sources[:-1]]
+        return set(gaining.tolist()) | set(divided.tolist())
+
+    def directions(self, source_directions):
+        """Unit vectors of the input's corners, such as normals, for the corners of the mesh as it will be."""
+        means = _means(source_directions.astype(np.float64), self.corner_sources, self.corner_weights)
+        lengths = np.linalg.norm(means, axis=1, keepdims=True)
+        heaviest = np.take_along_axis(self.corner_sources, self.corner_weights.argmax(axis=1)[:, None], axis=1)[:, 0]
+        return np.where(lengths > 1e-6, means / np.maximum(lengths, 1e-6), source_directions[heaviest])
+
+
+def plan_cut(source, cut, corner_uvs):
+    """The plan that makes `cut` (the engine's CutMesh) out of the AtlasArrays `source`. Raises ValueError where they do not fit
+    together, which is a bug of the engine and must not reach a mesh."""
+    _check_indices(source, cut, corner_uvs)
+    corners, weights = np.asarray(cut.new_vertex_corners), np.asarray(cut.new_vertex_weights)
+    vertex_sources = source.corner_vertices[corners].reshape(-1, 3)
+    corner_sources, corner_weights = _corner_means(source, cut, vertex_sources, weights)
+    new_positions = _means(source.positions.astype(np.float64), vertex_sources, weights)
+    positions = np.concatenate([source.positions, new_positions]).astype(np.float32)
+    return CutPlan(
+        atlas=AtlasArrays(positions, cut.face_offsets, cut.corner_vertices, corner_uvs),
+        face_sources=cut.face_sources,
+        corner_sources=corner_sources,
+        corner_weights=corner_weights,
+        vertex_sources=vertex_sources,
+        vertex_weights=weights,
+        edge_splits=_edge_splits(source, corners, weights),
+        new_seams=cut.new_seams,
+    )
+
+
+def corners_from_smallest(face_offsets, corner_vertices):
+    """The corners face by face, each face from its smallest vertex on: two equal faces that start elsewhere become the same."""
+    starts = face_offsets[:-1]
+    sizes = np.diff(face_offsets)
+    faces = np.repeat(np.arange(len(sizes)), sizes)
+    is_smallest = corner_vertices == np.minimum.reduceat(corner_vertices, starts)[faces]
+    first = np.empty(len(sizes), dtype=np.int64)
+    first[faces[is_smallest]] = np.flatnonzero(is_smallest)
+    within = np.arange(len(corner_vertices)) - starts[faces]
+    return starts[faces] + (first[faces] - starts[faces] + within) % sizes[faces]
+
+
+def same_faces(mine, theirs):
+    """For each corner of the AtlasArrays `mine` the same one of `theirs`, whose faces may start at other corners; None where
+    the faces differ otherwise."""
+    if not np.array_equal(mine.face_offsets, theirs.face_offsets):
+        return None
+    my_order = corners_from_smallest(mine.face_offsets, mine.corner_vertices)
+    their_order = corners_from_smallest(theirs.face_offsets, theirs.corner_vertices)
+    if not np.array_equal(mine.corner_vertices[my_order], theirs.corner_vertices[their_order]):
+        return None
+    corners = np.empty_like(their_order)
+    corners[my_order] = their_order
+    return corners
+
+
+def _means(values, indices, weights):
+    """Weighted means of three rows each. Always added in the same order: what two faces share stays equal to the last bit."""
+    terms = values[indices] * weights[:, :, None]
+    return terms[:, 0] + terms[:, 1] + terms[:, 2]
+
+
+def _require(holds, what):
+    if not holds:
+        raise ValueError(f"the cut mesh does not fit the mesh: {what}")
+
+
+def _check_indices(source, cut, corner_uvs):
+    vertex_count = len(source.positions) + len(cut.new_vertex_corners)
+    offsets, sources = cut.face_offsets, cut.face_sources
+    _require(len(offsets) == len(sources) + 1 and offsets[0] == 0 and np.all(np.diff(offsets) >= 3), "faces")
+    _require(offsets[-1] == len(cut.corner_vertices) == len(corner_uvs), "corners")
+    _require(_in_range(cut.corner_vertices, vertex_count) and _in_range(cut.new_seams, vertex_count), "vertices")
+    _require(_in_range(cut.new_vertex_corners, len(source.corner_vertices)), "new vertices")
+    _require(np.array_equal(np.unique(sources), np.arange(len(source.face_offsets) - 1)), "a face is lost")
+    _require(np.all(np.diff(sources) >= 0), "the order of faces")
+    faces = np.repeat(np.arange(len(sources)), np.diff(offsets))
+    _require(len(np.unique(faces * np.int64(vertex_count) + cut.corner_vertices)) == len(faces), "a face holds a vertex twice")
+
+
+def _in_range(indices, count):
+    return len(indices) == 0 or (indices.min() >= 0 and indices.max() < count)
+
+
+def _corner_means(source, cut, vertex_sources, vertex_weights):
+    """corner_sources and corner_weights of a CutPlan."""
+    old_vertices = len(source.positions)
+    supports = np.repeat(np.arange(old_vertices)[:, None], 3, axis=1)  # an input vertex is the mean of itself
+    supports = np.concatenate([supports, vertex_sources])[cut.corner_vertices]
+    weights = np.concatenate([np.tile([1.0, 0.0, 0.0], (old_vertices, 1)), vertex_weights])[cut.corner_vertices]
+    faces = np.repeat(cut.face_sources, np.diff(cut.face_offsets))
+    found = _find_corners(source, faces, supports)
+    weightless = weights == 0
+    found = np.where(weightless, found[np.arange(len(found)), weights.argmax(axis=1)][:, None], found)
+    _require(np.all(found >= 0), "a new vertex lies outside of its faces")
+    return found, weights
+
+
+def _find_corners(source, faces, vertices):
+    """The corner of face faces[i] at each of the vertices in row i; -1 where the face has none. A vertex that is none of the
+    face's stands for the one at its position: meshes double vertices for the sake of normals."""
+    found = _lookup(source, source.corner_vertices, faces, vertices)
+    if np.all(found >= 0):
+        return found
+    _, places = np.unique(source.positions, axis=0, return_inverse=True)
+    places = places.reshape(-1)
+    return np.where(found >= 0, found, _lookup(source, places[source.corner_vertices], faces, places[vertices]))
+
+
+def _lookup(source, corner_vertices, faces, vertices):
+    stride = np.int64(len(source.positions) + 1)
+    corner_faces = np.repeat(np.arange(len(source.face_offsets) - 1), np.diff(source.face_offsets))
+    keys = corner_faces * stride + corner_vertices
+    order = np.argsort(keys, kind="stable")
+    wanted = faces[:, None] * stride + vertices
+    place = np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)
+    return np.where(keys[order][place] == wanted, order[place], -1)
+
+
+def _edge_splits(source, corners, weights):
+    """The new vertices on edges of input faces, sorted by edge and along each; those inside of faces are left out."""
+    corner_faces = np.repeat(np.arange(len(source.face_offsets) - 1), np.diff(source.face_offsets))
+    following = np.arange(1, len(source.corner_vertices) + 1)
+    following[source.face_offsets[1:] - 1] = source.face_offsets[:-1]
+    edges = {}
+    for new, (row, three) in enumerate(zip(corners.tolist(), weights.tolist(), strict=True)):
+        ends = [(corner, weight) for corner, weight in zip(row, three, strict=True) if weight > 0]
+        _require(len(ends) >= 2 and len(set(corner_faces[row])) == 1, "a new vertex is an old one")
+        (a, _), (b, weight_b) = ends[:2]
+        if len(ends) == 2 and (following[a] == b or following[b] == a):
+            start, end = int(source.corner_vertices[a]), int(source.corner_vertices[b])
+            fraction = weight_b if start < end else 1 - weight_b
+            edges.setdefault((min(start, end), max(start, end)), []).append((fraction, len(source.positions) + new))
+    return [_edge_split(ends, sorted(vertices)) for ends, vertices in sorted(edges.items())]
+
+
+def _edge_split(ends, vertices):
+    fractions = [fraction for fraction, _ in vertices]
+    _require(len({0.0, *fractions, 1.0}) == len(fractions) + 2, "new vertices on an edge coincide")
+    return EdgeSplit(*ends, [vertex for _, vertex in vertices], fractions)
