@@ -81,6 +81,16 @@ struct ChartReport {
   double stretch_max = 0;  ///< largest stretch max(s1, 1 / s2) after, at the atlas' global scale
 };
 
+/// How the paper's road went; only with Intervention::Cut.
+struct RectangleReport {
+  int tutte_charts = 0;  ///< charts that Tutte's embedding onto a rectangle had to save: the deformation had failed
+  int boxed_charts = 0;  ///< charts packed by their bounding box as they were: too few triangles, or no disk
+  int holes_cut = 0;     ///< boundary loops that were joined to the outer one
+  int extra_corners = 0;  ///< added to each chart because the bound was missed without
+  int trails = 0;         ///< that the charts were cut along
+  double packed_pe = 0;   ///< of the rectangles, before the distortion was reduced
+};
+
 struct StageTime {
   std::string stage;
   double seconds = 0;
@@ -113,6 +123,7 @@ struct RefineResult {
   double price = 0;    ///< lambda: marginal E_d for one unit of log PE at the bound; 0 where it does not bind
   int iterations = 0;  ///< Newton iterations, all stages
   std::vector<ChartReport> charts;
+  std::optional<RectangleReport> rectangles;
   std::vector<std::string> repairs;  ///< one line each: what was mended and where
   std::vector<std::string> warnings;
   std::vector<StageTime> timings;

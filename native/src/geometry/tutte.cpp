@@ -1,4 +1,4 @@
-// Tutte's embedding onto a disk.
+// Tutte's embedding into a convex polygon.
 #include "geometry/tutte.h"
 
 #include <Eigen/LU>
@@ -37,14 +37,22 @@ std::vector<Vec2> tutte_disk(const Chart& chart) {
   double surface = 0;
   for (const RestTriangle& rest : chart.rest) surface += rest.area;
   const double radius = std::sqrt(surface / std::numbers::pi);
-  const int count = chart.vertex_count() + static_cast<int>(chart.boundary_loops.size()) - 1;
-  std::vector<Vec2> uvs(count, Vec2::Zero());
-  std::vector<char> fixed(count, 0);
+  std::vector<Vec2> circle;
   for (int b = 0; b < boundary.size(); ++b) {
     if (boundary.loop[b] != static_cast<int>(outer)) continue;
     const double angle = 2 * std::numbers::pi * boundary.arc[b] / boundary.loop_length[outer];
-    uvs[boundary.vertex[b]] = radius * Vec2(std::cos(angle), std::sin(angle));
-    fixed[boundary.vertex[b]] = 1;
+    circle.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  return tutte(chart, outer, circle);
+}
+
+std::vector<Vec2> tutte(const Chart& chart, std::size_t outer, const std::vector<Vec2>& polygon) {
+  const int count = chart.vertex_count() + static_cast<int>(chart.boundary_loops.size()) - 1;
+  std::vector<Vec2> uvs(count, Vec2::Zero());
+  std::vector<char> fixed(count, 0);
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    uvs[chart.boundary_loops[outer][k]] = polygon[k];
+    fixed[chart.boundary_loops[outer][k]] = 1;
   }
 
   std::vector<int> unknown(count, -1);

@@ -10,4 +10,8 @@ namespace atlas_refine {
 /// rounding, which may spoil triangles of strongly shrunk parts: the caller checks. Tutte 1963; positive weights, Floater 2003.
 std::vector<Vec2> tutte_disk(const Chart& chart);
 
+/// The same into a convex polygon: vertex k of boundary loop `outer` goes to polygon[k]. Where several of them lie on one
+/// straight side, no inner edge may join two of them.
+std::vector<Vec2> tutte(const Chart& chart, std::size_t outer, const std::vector<Vec2>& polygon);
+
 }  // namespace atlas_refine

@@ -258,6 +258,24 @@ std::vector<Chart> charts_as_placed(const ChartSet& set) {
   return charts;
 }
 
+std::vector<std::vector<int>> space_points(const Atlas& atlas, const ChartSet& set) {
+  std::vector<int> order(atlas.positions.size()), point(atlas.positions.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto less = [&](int a, int b) {
+    const Vec3 &p = atlas.positions[a], &q = atlas.positions[b];
+    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+  };
+  std::stable_sort(order.begin(), order.end(), less);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    point[order[k]] = k > 0 && !less(order[k - 1], order[k]) ? point[order[k - 1]] : order[k];
+  }
+  std::vector<std::vector<int>> out;
+  for (const Chart& chart : set.charts) out.emplace_back(chart.vertex_count(), -1);
+  for (int c = 0; c < atlas.corner_count(); ++c)
+    out[set.corners[c].chart][set.corners[c].vertex] = point[atlas.corner_vertices[c]];
+  return out;
+}
+
 std::string describe(const FaceDefect& defect) {
   const std::string face = "face " + std::to_string(defect.face) + " of chart " + std::to_string(defect.chart);
   switch (defect.kind) {

@@ -10,14 +10,21 @@ namespace {
 constexpr double kDearestPrice = 3;
 constexpr double kGapStep = 0.6;
 constexpr int kGapSteps = 8;
+constexpr int kLayoutGapSteps = 3;  // before extra corners are tried
 
 void require(bool holds, const char* what) {
   if (!holds) throw RefineError(ErrorCode::BadOption, "options", what);
 }
 
+void check_importance(const Atlas& atlas, const std::vector<double>& importance) {
+  require(importance.empty() || static_cast<int>(importance.size()) == atlas.face_count(),
+          "importance must hold one weight per face");
+  for (double weight : importance) require(weight > 0 && std::isfinite(weight), "importance weights must be finite and above 0");
+}
+
 }  // namespace
 
-void check_options(const RefineOptions& options) {
+void check_options(const Atlas& atlas, const RefineOptions& options) {
   require(options.pe_bound > 0 && options.pe_bound < 1, "the packing efficiency bound must lie between 0 and 1, both excluded");
   require(options.box_aspect == 0 || (options.box_aspect >= 1e-3 && options.box_aspect <= 1e3),
           "the box aspect must be 0 (free) or lie in [0.001, 1000]");
@@ -28,7 +35,23 @@ void check_options(const RefineOptions& options) {
   require(rectangles.sigma > 0 && rectangles.sigma <= 0.1, "sigma must lie between 0 (excluded) and 0.1");
   require(rectangles.candidates >= 1 && rectangles.candidates <= 1000000, "the candidates must number 1 to 1000000");
   require(rectangles.omega >= 0 && rectangles.omega <= 1, "omega must lie in [0, 1]");
+  check_importance(atlas, options.importance);
   require(options.threads >= 0 && options.threads <= 1024, "the number of threads must lie in [0, 1024]");
+}
+
+LayoutOptions layout_options(const RefineOptions& options, int threads) {
+  LayoutOptions layout{.pe_bound = options.pe_bound,
+                       .box_aspect = options.box_aspect,
+                       .gaps = {options.gap.value_or(Gap{})},
+                       .rectangles = options.rectangles,
+                       .seed = options.seed,
+                       .threads = threads};
+  for (int k = 0; !options.gap && k < kLayoutGapSteps; ++k) {
+    Gap smaller = layout.gaps.back();
+    smaller.value *= kGapStep;
+    layout.gaps.push_back(smaller);
+  }
+  return layout;
 }
 
 SqueezeOptions squeeze_options(const RefineOptions& options, int threads) {

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "input/check_atlas.h"
 #include "measure/distortion.h"
 #include "measure/metrics.h"
 #include "measure/snapshot.h"
+#include "report/cut_faces.h"
 #include "report/measure_atlas.h"
 
 namespace atlas_refine {
@@ -25,6 +27,12 @@ std::string number(const char* format, double value) {
 double rounded_to_single(double value) {
   volatile float stored = static_cast<float>(value);
   return stored;
+}
+
+std::vector<int> identity(std::size_t count) {
+  std::vector<int> out(count);
+  std::iota(out.begin(), out.end(), 0);
+  return out;
 }
 
 }  // namespace
@@ -90,10 +98,35 @@ void Outcome::re_embedded(int chart) {
 void Outcome::squeezed(const Squeezed& squeezed) {
   result_.price = squeezed.outcome.price;
   result_.iterations += squeezed.iterations;
-  if (!options_.gap && squeezed.gap.value < Gap{}.value) {
-    result_.warnings.push_back("the gap was reduced from " + number("%g", Gap{}.value) + " to " +
-                               number("%g", squeezed.gap.value) + " of the box diagonal: the bound does not leave more");
+  warn_of_gap(squeezed.gap);
+}
+
+void Outcome::aligned(const std::vector<AxisAlignedChart>& aligned) {
+  RectangleReport& report = result_.rectangles.emplace();
+  for (std::size_t c = 0; c < aligned.size(); ++c) {
+    const std::string chart = "chart " + std::to_string(c) + ": ";
+    report.tutte_charts += aligned[c].way == AxisAlignedChart::Way::Rectangle;
+    report.boxed_charts += aligned[c].way == AxisAlignedChart::Way::AsItIs;
+    report.holes_cut += aligned[c].holes_cut;
+    if (aligned[c].holes_cut > 0)
+      result_.repairs.push_back(chart + std::to_string(aligned[c].holes_cut) + " holes cut open along shortest paths");
+    if (aligned[c].way == AxisAlignedChart::Way::Rectangle)
+      result_.warnings.push_back(chart + "could not be deformed to its axes; embedded onto a rectangle");
   }
+}
+
+void Outcome::laid_out(const Layout& layout) {
+  RectangleReport& report = *result_.rectangles;
+  for (const auto& trails : layout.trails) report.trails += static_cast<int>(trails.size());
+  report.extra_corners = layout.extra_corners;
+  report.packed_pe = layout.pe;
+  warn_of_gap(layout.gap);
+}
+
+void Outcome::warn_of_gap(const Gap& gap) {
+  if (options_.gap || gap.value >= Gap{}.value) return;
+  result_.warnings.push_back("the gap was reduced from " + number("%g", Gap{}.value) + " to " + number("%g", gap.value) +
+                             " of the box diagonal: the bound does not leave more");
 }
 
 void Outcome::show(const std::string& stage, const std::vector<Chart>& charts) {
@@ -113,54 +146,87 @@ RefineResult Outcome::unchanged(const Gap& gap) {
   // An automatic gap asks nothing of an atlas that is left as it is.
   result_.gap = gap;
   if (!options_.gap) result_.gap.value = std::min(gap.value, result_.before.gap_between);
-  report_charts(input_charts_);
+  report_charts(input_charts_, identity(input_charts_.size()));
   return result_;
 }
 
 RefineResult Outcome::certified(Intervention intervention, const std::vector<Chart>& charts, const Gap& gap) {
   begin_stage("certify", 0.95, 1);
+  Output output{atlas_, corners_, input_charts_, input_charts_, identity(charts.size())};
+  for (std::size_t c = 0; c < charts.size(); ++c) output.charts[c].uvs = charts[c].uvs;
+  return certify(intervention, std::move(output), gap);
+}
+
+RefineResult Outcome::certified_cut(const ChartSet& set, const CutCharts& cut, const std::vector<Chart>& pieces, const Gap& gap) {
+  begin_stage("certify", 0.95, 1);
+  CutFaces faces = cut_faces(atlas_, set, cut);
+  Output output{atlas_, std::move(faces.corners), pieces, pieces, {}};
+  output.atlas.positions = std::move(faces.positions);
+  output.atlas.face_offsets = faces.mesh.face_offsets;
+  output.atlas.corner_vertices = faces.mesh.corner_vertices;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const CutPiece& piece = cut.pieces[p];
+    output.input_charts.push_back(piece.chart);
+    for (int v = 0; v < piece.mesh.vertex_count(); ++v) output.input[p].uvs[v] = input_uv(piece.chart, piece.supports[v]);
+    for (std::size_t t = 0; t < piece.sources.size(); ++t) {
+      const Triangle& v = piece.mesh.triangles[t];
+      output.charts[p].rest[t] = rest_of_part(input_charts_[piece.chart], piece.sources[t],
+                                              {piece.supports[v[0]], piece.supports[v[1]], piece.supports[v[2]]});
+    }
+  }
+  result_.cut = std::move(faces.mesh);
+  return certify(Intervention::Cut, std::move(output), gap);
+}
+
+Vec2 Outcome::input_uv(int chart, const Support& support) const {
+  Vec2 uv = Vec2::Zero();
+  for (int k = 0; k < 3; ++k) {
+    if (support.vertices[k] >= 0) uv += support.weights[k] * input_charts_[chart].uvs[support.vertices[k]];
+  }
+  return uv;
+}
+
+RefineResult Outcome::certify(Intervention intervention, Output output, const Gap& gap) {
   result_.intervention = intervention;
   result_.gap = gap;
-  Atlas output = atlas_;
-  output.corner_uvs = stored_uvs(charts);
-  const ChartSet set = split_charts(output);
-  result_.after = measure_split(output, set, options_.box_aspect);
-  require_certificate(set, gap);
+  store(output);
+  const ChartSet set = split_charts(output.atlas);
+  result_.after = measure_split(output.atlas, set, options_.box_aspect);
+  require_certificate(set, static_cast<int>(output.charts.size()), gap);
   require_bound();
-  // The same triangles in the same order as the input's charts: only then can E_2 be told.
-  std::vector<Chart> stored = input_charts_;
-  for (int c = 0; c < output.corner_count(); ++c) stored[corners_[c].chart].uvs[corners_[c].vertex] = output.corner_uvs[c];
-  result_.after.distortion_to_input = dirichlet_sums_between(input_charts_, stored).best_energy();
-  report_charts(stored);
-  show(to_string(intervention), stored);
-  result_.corner_uvs = std::move(output.corner_uvs);
+  // The same triangles in the same order as the input's: only then can E_2 be told.
+  result_.after.distortion_to_input = dirichlet_sums_between(output.input, output.charts).best_energy();
+  report_charts(output.charts, output.input_charts);
+  show(to_string(intervention), output.charts);
+  result_.corner_uvs = std::move(output.atlas.corner_uvs);
   end_stage();
   return result_;
 }
 
-std::vector<Vec2> Outcome::stored_uvs(const std::vector<Chart>& charts) const {
-  const Box box = box_of_aspect(uv_box(charts), options_.box_aspect);
+/// Scales the charts into the unit square and rounds them as they will be stored.
+void Outcome::store(Output& output) const {
+  const Box box = box_of_aspect(uv_box(output.charts), options_.box_aspect);
   const double scale = 1 / box.size().maxCoeff();
-  std::vector<Vec2> uvs;
-  uvs.reserve(corners_.size());
-  for (const CornerRef& corner : corners_) {
-    Vec2 uv = scale * (charts[corner.chart].uvs[corner.vertex] - box.min);
-    if (options_.stored == Stored::Float32) uv = Vec2(rounded_to_single(uv.x()), rounded_to_single(uv.y()));
-    uvs.push_back(uv);
+  for (Chart& chart : output.charts) {
+    for (Vec2& uv : chart.uvs) {
+      uv = scale * (uv - box.min);
+      if (options_.stored == Stored::Float32) uv = Vec2(rounded_to_single(uv.x()), rounded_to_single(uv.y()));
+    }
   }
-  return uvs;
+  output.atlas.corner_uvs.clear();
+  for (const CornerRef& corner : output.corners)
+    output.atlas.corner_uvs.push_back(output.charts[corner.chart].uvs[corner.vertex]);
 }
 
-void Outcome::require_certificate(const ChartSet& output, const Gap& gap) {
+void Outcome::require_certificate(const ChartSet& output, int chart_count, const Gap& gap) {
   const auto refuse = [&](const std::string& why, int chart, int face) {
     throw RefineError(ErrorCode::NotCertified, "certify", message_prefix(atlas_) + "the result was withheld: " + why, chart,
                       face);
   };
   const Validity validity = validate_split(output);
   if (!validity.valid()) refuse(validity.problem, validity.chart, validity.face);
-  if (result_.after.seam_edges != result_.before.seam_edges || result_.after.chart_count != result_.before.chart_count) {
-    refuse("its seams differ from the input's", -1, -1);
-  }
+  const bool seams_kept = result_.cut || result_.after.seam_edges == result_.before.seam_edges;
+  if (!seams_kept || result_.after.chart_count != chart_count) refuse("its seams are not those that were meant", -1, -1);
   const Vec2 box(result_.after.box_width, result_.after.box_height);
   const Vec2 whole = box_of_aspect({Vec2::Zero(), box}, options_.box_aspect).size();
   if (result_.after.gap_between * box.norm() < gap.length(whole)) {
@@ -182,13 +248,16 @@ void Outcome::require_bound() {
   throw RefineError(ErrorCode::BoundNotReached, "squeeze", message);
 }
 
-void Outcome::report_charts(const std::vector<Chart>& charts) {
+void Outcome::report_charts(const std::vector<Chart>& charts, const std::vector<int>& input_charts) {
   const double scale = dirichlet_sums(charts).best_scale();
-  for (std::size_t c = 0; c < charts.size(); ++c) {
-    const std::vector<double> stretch = triangle_stretch(charts[c], scale);
-    result_.charts[c].stretch_max = *std::max_element(stretch.begin(), stretch.end());
-    result_.charts[c].distortion_after = dirichlet_sums(charts[c]).best_energy();
+  std::vector<DirichletSums> sums(result_.charts.size());
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    const std::vector<double> stretch = triangle_stretch(charts[k], scale);
+    ChartReport& report = result_.charts[input_charts[k]];
+    report.stretch_max = std::max(report.stretch_max, *std::max_element(stretch.begin(), stretch.end()));
+    sums[input_charts[k]] += dirichlet_sums(charts[k]);
   }
+  for (std::size_t c = 0; c < sums.size(); ++c) result_.charts[c].distortion_after = sums[c].best_energy();
 }
 
 }  // namespace atlas_refine

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "atlas_refine/refine.h"
+#include "cut/cut_charts.h"
 #include "input/split_charts.h"
+#include "layout/search_layout.h"
 #include "reduce/squeeze.h"
 #include "support/monitor.h"
 
@@ -21,6 +23,9 @@ class Outcome {
   const Measures& before() const { return result_.before; }
   void re_embedded(int chart);
   void squeezed(const Squeezed& squeezed);
+  void aligned(const std::vector<AxisAlignedChart>& aligned);
+  void laid_out(const Layout& layout);
+  void reduced(const ReduceResult& reduced) { result_.iterations += reduced.iterations; }
   /// Hands the charts to the debug sink, where there is one.
   void show(const std::string& stage, const std::vector<Chart>& charts);
 
@@ -29,13 +34,26 @@ class Outcome {
   /// The charts' UVs, scaled into the unit square and rounded as they will be stored, after the exact certificate on just those
   /// values. Throws BoundNotReached (unless best effort) or NotCertified.
   RefineResult certified(Intervention intervention, const std::vector<Chart>& charts, const Gap& gap);
+  /// The same for charts that were cut: `pieces` are those of `cut` where they have ended up.
+  RefineResult certified_cut(const ChartSet& set, const CutCharts& cut, const std::vector<Chart>& pieces, const Gap& gap);
 
  private:
+  /// An atlas to be certified: `charts` as they are to be stored, and with the input's UVs.
+  struct Output {
+    Atlas atlas;
+    std::vector<CornerRef> corners;
+    std::vector<Chart> charts;
+    std::vector<Chart> input;
+    std::vector<int> input_charts;  ///< the chart of the input that each one is part of
+  };
   void end_stage();
-  std::vector<Vec2> stored_uvs(const std::vector<Chart>& charts) const;
-  void require_certificate(const ChartSet& output, const Gap& gap);
+  void store(Output& output) const;
+  RefineResult certify(Intervention intervention, Output output, const Gap& gap);
+  void require_certificate(const ChartSet& output, int chart_count, const Gap& gap);
   void require_bound();
-  void report_charts(const std::vector<Chart>& charts);
+  void warn_of_gap(const Gap& gap);
+  Vec2 input_uv(int chart, const Support& support) const;
+  void report_charts(const std::vector<Chart>& charts, const std::vector<int>& input_charts);
 
   const Atlas& atlas_;
   const RefineOptions& options_;

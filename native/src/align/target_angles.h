@@ -1,0 +1,25 @@
+// Target polar angles: which axis direction every boundary edge shall take (section 3.1.1, eq. 2, 6, 7).
+#pragma once
+
+#include <vector>
+
+namespace atlas_refine {
+
+/// What the targets are chosen from. All arrays have one entry per boundary edge, in order.
+struct TargetProblem {
+  const std::vector<double>& lengths;
+  const std::vector<double>& angle_rad;  ///< smoothed and rotated polar angles
+  double corner_cost = 0;                ///< per quarter turn of a corner, in length * rad^2
+  double least_segment = 0;              ///< two corners are at least so far apart, unless the boundary is too short
+};
+
+/// Quarter turns Theta_i of every edge: minimises sum l_i (theta_i - pi/2 Theta_i)^2 + corner_cost * sum |K_i| exactly, subject
+/// to K_i <= 1 at every vertex, K_i >= -2, segments of least length, and Theta_i + 4 after one turn. Differs from eq. (6)-(7)
+/// with splitting and corner reduction: one cyclic shortest path over labels, found by dynamic programming, replaces projection
+/// and the local repairs that follow it, and never leaves K_i > 1.
+std::vector<int> target_angles(const TargetProblem& problem);
+
+/// K_i at the start of each edge: the step from the edge before; sums to 4.
+std::vector<int> corner_turns(const std::vector<int>& quarter_turns);
+
+}  // namespace atlas_refine

@@ -1,0 +1,180 @@
+// Q is read from a copy of the chart's mesh that all trails are traced through.
+#include "layout/quad_mesh.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <map>
+
+#include "geometry/axis_trails.h"
+#include "geometry/plane.h"
+
+namespace atlas_refine {
+namespace {
+
+class QuadMeshMaker {
+ public:
+  QuadMeshMaker(const AxisAlignedChart& aligned, const Chart& source)
+      : aligned_(aligned), source_(source), mesh_(aligned.mesh), tracer_(mesh_, aligned.boundary, aligned.quarter_turns) {}
+
+  QuadMesh run(int extra_corners) {
+    const int n = static_cast<int>(aligned_.boundary.size());
+    for (const auto& loop : mesh_.boundary_loops()) {
+      for (const Side& s : loop) out_.boundary_length += surface_length(s);
+    }
+    for (int i = 0; i < n; ++i) {
+      const int before = i > 0 ? aligned_.quarter_turns[i - 1] : aligned_.quarter_turns[n - 1] - 4;
+      add_corner(i, before - aligned_.quarter_turns[i], false);
+    }
+    for (int i : extra_corner_places(extra_corners)) add_corner(i, 0, true);
+    for (std::size_t t = 0; t < ends_.size(); ++t) paths_.push_back(tracer_.path(out_.trails[t].start, ends_[t]));
+    find_nodes();
+    find_faces();
+    find_segments();
+    return std::move(out_);
+  }
+
+ private:
+  double surface_length(const Side& side) const {
+    const int s = mesh_.sources[side.triangle];
+    const Mat2 flat = source_.rest[s].inverse_edges.inverse();
+    const auto place = [&](int vertex) {
+      Vec2 p = Vec2::Zero();
+      const Support& support = mesh_.supports[vertex];
+      for (int k = 0; k < 3; ++k) {
+        if (support.vertices[k] == source_.triangles[s][1]) p += support.weights[k] * flat.col(0);
+        if (support.vertices[k] == source_.triangles[s][2]) p += support.weights[k] * flat.col(1);
+      }
+      return p;
+    };
+    return (place(mesh_.to(side)) - place(mesh_.from(side))).norm();
+  }
+
+  /// A corner of `reflex` = -K quarter turns beyond straight has 1 - K directions inside.
+  void add_corner(int i, int reflex, bool optional) {
+    if (reflex < 0 || (reflex == 0 && !optional)) return;
+    std::vector<int> trails;
+    for (int j = 1; j <= 1 + reflex; ++j) {
+      const TrailStart start{aligned_.boundary[i], aligned_.quarter_turns[i] + j};
+      ends_.push_back(tracer_.trace(start, TrailTracer::Until::Boundary).back());
+      trails.push_back(static_cast<int>(out_.trails.size()));
+      out_.trails.push_back({start, {}, {}, 0});
+    }
+    out_.corners.push_back(trails);
+    out_.optional_corner.push_back(optional);
+  }
+
+  /// Boundary vertices that are no corners, as evenly spread along the boundary as they come.
+  std::vector<int> extra_corner_places(int count) const {
+    const int n = static_cast<int>(aligned_.boundary.size());
+    std::vector<double> at(n + 1, 0);
+    for (int i = 0; i < n; ++i)
+      at[i + 1] = at[i] + (aligned_.mesh.uvs[aligned_.boundary[(i + 1) % n]] - aligned_.mesh.uvs[aligned_.boundary[i]]).norm();
+    std::vector<int> places;
+    for (int k = 0; k < count; ++k) {
+      const double wanted = at[n] * (k + 0.5) / count;
+      int best = -1;
+      for (int i = 1; i < n; ++i) {
+        if (aligned_.quarter_turns[i] != aligned_.quarter_turns[i - 1]) continue;
+        if (best < 0 || std::abs(at[i] - wanted) < std::abs(at[best] - wanted)) best = i;
+      }
+      if (best >= 0 && std::find(places.begin(), places.end(), best) == places.end()) places.push_back(best);
+    }
+    return places;
+  }
+
+  /// Vertices where trails begin, end or meet.
+  void find_nodes() {
+    std::vector<int> visits(mesh_.vertex_count(), 0);
+    for (const auto& path : paths_) {
+      for (int v : path) ++visits[v];
+      ++visits[path.front()];
+      ++visits[path.back()];
+    }
+    node_of_.assign(mesh_.vertex_count(), -1);
+    for (int v = 0; v < mesh_.vertex_count(); ++v) {
+      if (visits[v] > 1) node_of_[v] = out_.node_count++;
+    }
+  }
+
+  /// Triangles that no trail parts make one face.
+  void find_faces() {
+    trail_edges_.assign(mesh_.triangle_count(), {0, 0, 0});
+    for (const auto& path : paths_) {
+      for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+        const Side side = mesh_.find_side(path[k], path[k + 1]), twin = mesh_.twin(side);
+        trail_edges_[side.triangle][side.side] = 1;
+        if (twin.triangle >= 0) trail_edges_[twin.triangle][twin.side] = 1;
+      }
+    }
+    face_of_.assign(mesh_.triangle_count(), -1);
+    for (int seed = 0; seed < mesh_.triangle_count(); ++seed) {
+      if (face_of_[seed] >= 0) continue;
+      const int face = static_cast<int>(out_.faces.size());
+      Box box{mesh_.uvs[mesh_.triangles[seed][0]], mesh_.uvs[mesh_.triangles[seed][0]]};
+      double area = 0;
+      std::vector<int> stack = {seed};
+      face_of_[seed] = face;
+      while (!stack.empty()) {
+        const int t = stack.back();
+        stack.pop_back();
+        const Triangle& v = mesh_.triangles[t];
+        area += 0.5 * doubled_area(mesh_.uvs[v[0]], mesh_.uvs[v[1]], mesh_.uvs[v[2]]);
+        for (int k = 0; k < 3; ++k) {
+          box.min = box.min.cwiseMin(mesh_.uvs[v[k]]);
+          box.max = box.max.cwiseMax(mesh_.uvs[v[k]]);
+          const int other = mesh_.neighbours[t][k];
+          if (trail_edges_[t][k] || other < 0 || face_of_[other] >= 0) continue;
+          face_of_[other] = face;
+          stack.push_back(other);
+        }
+      }
+      out_.faces.push_back(box);
+      out_.face_areas.push_back(area);
+    }
+  }
+
+  /// Trails that run along one line share their segments.
+  void find_segments() {
+    std::map<std::pair<int, int>, int> known;
+    for (std::size_t t = 0; t < paths_.size(); ++t) {
+      const auto& path = paths_[t];
+      QuadMesh::Trail& trail = out_.trails[t];
+      trail.nodes = {node_of_[path.front()]};
+      double length = 0;
+      for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+        const Side side = mesh_.find_side(path[k], path[k + 1]), twin = mesh_.twin(side);
+        length += surface_length(side);
+        const int node = node_of_[path[k + 1]];
+        if (node < 0) continue;
+        const auto key = std::minmax(trail.nodes.back(), node);
+        const auto [at, added] = known.try_emplace(key, static_cast<int>(out_.segments.size()));
+        if (added)
+          out_.segments.push_back(
+              {face_of_[side.triangle], twin.triangle >= 0 ? face_of_[twin.triangle] : face_of_[side.triangle], length});
+        trail.nodes.push_back(node);
+        trail.segments.push_back(at->second);
+        trail.length += length;
+        length = 0;
+      }
+    }
+  }
+
+  const AxisAlignedChart& aligned_;
+  const Chart& source_;
+  SplitMesh mesh_;
+  TrailTracer tracer_;
+  QuadMesh out_;
+  std::vector<int> ends_;  // last vertex of each trail
+  std::vector<std::vector<int>> paths_;
+  std::vector<int> node_of_;
+  std::vector<int> face_of_;
+  std::vector<std::array<char, 3>> trail_edges_;
+};
+
+}  // namespace
+
+QuadMesh make_quad_mesh(const AxisAlignedChart& aligned, const Chart& source, int extra_corners) {
+  return QuadMeshMaker(aligned, source).run(extra_corners);
+}
+
+}  // namespace atlas_refine
