@@ -17,6 +17,9 @@ constexpr double kNearTarget = 1e-3;     // log PE: from here on the barrier sof
 constexpr double kConverged = 2e-4;      // relative change of E_d - 1, twice in a row,
 constexpr double kNegligible = 1e-8;     // or a change of E_d that nobody can measure
 constexpr double kLeastPrice = 1e-3;     // the barrier is never softer than for this price
+constexpr double kMostFall = 0.01;       // from above the target log PE falls at most so much in one iteration,
+constexpr double kPressure = 1;          // the barrier is as firm as for this price per unit of E_d - 1,
+constexpr double kSlow = 0.05;           // and softens once a step gains less than this share of E_d - 1
 constexpr double kFirmness = 0.2;        // stiffness of the barrier per price and range while PE climbs,
 constexpr double kSoftFirmness = 0.005;  // and at the end, when charts may come as near as the gap allows
 constexpr double kSoftening = 0.5;       // from one to the other, a step per iteration on the target
@@ -39,8 +42,9 @@ class Reduction {
     energy_ = system_.distortion(state_.x);
     best_ = state_;
     firmness_ = bounded() ? kFirmness : kOpenFirmness;
-    stiffness_ = firmness_ * kLeastPrice * system_.range();
     update_pe();
+    relaxing_ = bounded() && pe_ > problem_.pe_target;
+    stiffness_ = firmness_ * least_price() * system_.range();
   }
 
   ReduceResult run() {
@@ -109,7 +113,8 @@ class Reduction {
     system_.matrix.solve(climb);
     // Too distorted: hold the PE and relax before climbing on.
     const double climb_limit = within_distortion() ? std::clamp(0.2 * deficit(), kLeastClimb, kMostClimb) : 0;
-    const double wanted = std::min(climb_limit, deficit()) - dot(system_.pe_gradient, step_);
+    const double gain = std::clamp(deficit(), -kMostFall, climb_limit);
+    const double wanted = gain - dot(system_.pe_gradient, step_);
     price_ = std::max(0.0, wanted / dot(system_.pe_gradient, climb));
     for (std::size_t i = 0; i < step_.size(); ++i) step_[i] += price_ * climb[i];
     return true;
@@ -121,6 +126,7 @@ class Reduction {
 
   /// Backtracks along the step from its largest fraction free of flips and collisions.
   void advance() {
+    const double energy_before = energy_;
     const double limit = system_.free_step(state_, step_);
     std::vector<Vec2> swept(step_.begin(), step_.begin() + system_.vertex_count());
     for (Vec2& s : swept) s *= limit;
@@ -142,6 +148,7 @@ class Reduction {
       break;
     }
     update_pe();
+    slow_ = fraction_ > 0.3 && energy_before - energy_ < kSlow * (energy_ - 1);
     adapt();
   }
 
@@ -151,10 +158,13 @@ class Reduction {
       damping_ = std::max(kLeastDamping, 0.5 * damping_);
     else if (fraction_ < 0.1)
       damping_ = std::min(kMostDamping, 4 * damping_);
-    if (bounded() && deficit() < kNearTarget) firmness_ = std::max(kSoftFirmness, kSoftening * firmness_);
-    const double wanted = firmness_ * std::max(price_, kLeastPrice) * system_.range();
+    if (bounded() && (relaxing_ ? slow_ : deficit() < kNearTarget)) firmness_ = std::max(kSoftFirmness, kSoftening * firmness_);
+    const double wanted = firmness_ * std::max(price_, least_price()) * system_.range();
     stiffness_ = std::clamp(wanted, 0.5 * stiffness_, 2 * stiffness_);
   }
+
+  /// Where charts start above the bound and relax, they press on each other by the energy that they still have to lose.
+  double least_price() const { return relaxing_ ? std::max(kLeastPrice, kPressure * (energy_ - 1)) : kLeastPrice; }
 
   /// The barrier has reached its final softness, or nothing presses on it.
   bool settled() const { return !bounded() || price_ == 0 || firmness_ == kSoftFirmness; }
@@ -203,7 +213,7 @@ class Reduction {
   double energy_ = 0, pe_ = 0, price_ = 0, fraction_ = 1;
   double firmness_ = 0, stiffness_ = 0, damping_ = 1e-3;
   double best_energy_ = std::numeric_limits<double>::infinity(), best_pe_ = -1, best_price_ = 0;
-  bool best_holds_ = false;
+  bool best_holds_ = false, relaxing_ = false, slow_ = false;
   int iteration_ = 0, calm_ = 0, idle_ = 0, expensive_ = 0, distorted_ = 0;
 };
 
