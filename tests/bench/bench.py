@@ -17,6 +17,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import studies
 import table
 from bad_input import bad_input_lines
 from measure_file import Goal, Row, count_triangles, measure_file, outputs_differ
@@ -141,6 +142,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help=f"only files of at most {QUICK_TRIANGLES} triangles")
     parser.add_argument("--determinism", action="store_true", help="instead: the same bits from 2 runs and from 1 and 2 threads")
     parser.add_argument("--bad-input", action="store_true", help="instead: exit codes and messages of bad input")
+    parser.add_argument("--study", choices=studies.NAMES, help="instead: one of the paper's studies, its figures beside ours")
     parser.add_argument("--build", type=Path, default=ROOT / "build")
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "bench")
     arguments = parser.parse_args()
@@ -153,6 +155,10 @@ def main():
     if arguments.determinism:
         return 1 if run_determinism(arguments) else 0
     arguments.out.mkdir(parents=True, exist_ok=True)
+    if arguments.study:
+        return (
+            1 if studies.run_study(arguments.study, arguments, lambda folder: (p for _, p in meshes(arguments, [folder]))) else 0
+        )
     return 1 if run_table(arguments, arguments.out) else 0
 
 

@@ -15,7 +15,6 @@ import check_atlas
 
 PROGRAM_LIMIT_S = 180  # three times what is allowed
 HELPER_LIMIT_S = 900
-SAFETY_NETS = ("tutte", "extra corner")  # words of the report's repairs that tell of one
 
 
 @dataclass(frozen=True)
@@ -59,7 +58,7 @@ class Row:
     added_seams: int | None = None  # edges; with cuts not counted
     bl_in: float = math.nan
     bl: float = math.nan
-    nets: int = 0  # safety nets that were used
+    nets: int = 0  # charts that Tutte's embedding onto a rectangle saved, and extra corners of each chart
     re_embedded: int = 0  # charts that overlapped themselves
     pe_in: float = math.nan
     pe: float = math.nan
@@ -79,7 +78,6 @@ class Row:
     newton_seconds: float = math.nan  # one Newton iteration with stock Eigen
     peak_bytes: float = math.nan
     stages: dict = field(default_factory=dict)  # seconds of each
-    repairs: list = field(default_factory=list)
 
     @property
     def cuts(self):
@@ -180,8 +178,8 @@ def fill_from_report(row, report):
     row.how, row.charts_in, row.charts = report["intervention"], before["chart_count"], after["chart_count"]
     row.smallest, row.small_charts = number(after["smallest_chart"]), after["small_charts"]
     row.bl_in, row.bl = number(before["boundary_length"]), number(after["boundary_length"])
-    row.repairs = report["repairs"]
-    row.nets = sum(any(word in line.lower() for word in SAFETY_NETS) for line in report["repairs"])
+    if cut := report.get("rectangles"):
+        row.nets = cut["tutte_charts"] + cut["extra_corners"]
     row.re_embedded = sum(chart["re_embedded"] for chart in report["charts"])
     row.pe_in, row.pe = number(before["pe_fixed_aspect"]), number(after["pe_fixed_aspect"])
     row.e_d_in, row.e_d = number(before["distortion"]), number(after["distortion"])

@@ -11,7 +11,9 @@ from pathlib import Path
 import bench
 import measure_file
 import pytest
+import studies
 from measure_file import Goal, Row
+from study_statistics import statistics_lines
 from table_rectangles import goal_lines
 
 MIB = 2**20
@@ -92,3 +94,23 @@ def test_a_file_without_seams_has_no_growth_of_them():
     assert row().added_length == pytest.approx(0.5)
     assert row(e_d=1.0605).growth == pytest.approx(0.01)
     assert not row(valid=False).ok
+
+
+def test_statistics_of_good_rows_only():
+    results = [(row(e_d=e), studies.Figures("a", "b", sae=0.01)) for e in (1.05, 1.071)]
+    results.append((row(e_d=9.0, valid=False), studies.Figures("a", "b")))
+    lines = statistics_lines("rectangles", results)
+    assert lines[0].startswith("rectangles: 2 of 3 files")
+    growth = next(line for line in lines if line.strip().startswith("dE %"))
+    assert growth.split()[2:6] == ["2.0000", "1.0000", "1.0000", "0.0000"]
+    assert growth.endswith("-, 0.0533, -")
+    assert not any("SAE in" in line for line in lines)
+
+
+def test_lines_of_a_study_stand_under_their_header():
+    theirs, ours = studies.PAPER["sigma"][0], studies.Figures("a", "b", 5, reason="none")
+    end = studies.header().index("t1/t2/t3")
+    assert studies.line(theirs)[:end].split()[-3:] == ["1.0220", "0.0131", "0.0047"]
+    assert studies.line(ours)[:end].split() == ["a", "b", "5"] + ["-"] * 11
+    assert studies.line(theirs).index("3.82/0.20/8.58") == end
+    assert studies.line(ours).endswith("none")
