@@ -44,6 +44,15 @@ Json to_json(const RectangleOptions& o) {
   return {{"sigma", o.sigma}, {"candidates", o.candidates}, {"omega", o.omega}, {"until_bound", o.until_bound}};
 }
 
+Json to_json(const RectangleReport& r) {
+  return {{"tutte_charts", r.tutte_charts},
+          {"boxed_charts", r.boxed_charts},
+          {"holes_cut", r.holes_cut},
+          {"extra_corners", r.extra_corners},
+          {"trails", r.trails},
+          {"packed_pe", number(r.packed_pe)}};
+}
+
 Json to_json(const FileReport& file) {
   return {{"input", file.input.string()},    {"output", file.output.string()}, {"faces", file.faces},
           {"added_faces", file.added_faces}, {"vertices", file.vertices},      {"added_vertices", file.added_vertices}};
@@ -115,7 +124,15 @@ std::string cut_lines(const std::vector<FileReport>& files, const RefineResult& 
     added_faces += file.added_faces;
     added_vertices += file.added_vertices;
   }
-  return text + print("  added        %d faces, %d vertices\n", added_faces, added_vertices);
+  text += print("  added        %d faces, %d vertices\n", added_faces, added_vertices);
+  if (!result.rectangles) return text;
+  const RectangleReport& r = *result.rectangles;
+  text += print("  rectangles   packed to %.4f, %d trails", r.packed_pe, r.trails);
+  if (r.tutte_charts > 0) text += print(", %d charts embedded onto a rectangle", r.tutte_charts);
+  if (r.extra_corners > 0) text += print(", %d extra corners a chart", r.extra_corners);
+  text += "\n  seconds     ";
+  for (const StageTime& stage : result.timings) text += print(" %s %.2f", stage.stage.c_str(), stage.seconds);
+  return text + "\n";
 }
 
 /// A distance as fraction of the box diagonal, or "none" where there is nothing to be apart from.
@@ -145,6 +162,7 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
                {"price", number(result.price)},
                {"iterations", result.iterations},
                {"charts", charts},
+               {"rectangles", result.rectangles ? to_json(*result.rectangles) : Json(nullptr)},
                {"repairs", result.repairs},
                {"warnings", result.warnings},
                {"timings", stages},

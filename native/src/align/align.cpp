@@ -22,8 +22,8 @@ namespace {
 // A notch is kept where its two flanks, 2 * depth * (pi/2)^2, outweigh its corners: four quarter turns of this many sigmas.
 constexpr double kCornerCost = 2.5;
 constexpr double kLeastSegment = 2;  // shortest side of the axis-aligned chart, in sigmas
-constexpr double kCoarser = 2.5;     // sigma grows by this where a deformation fails,
-constexpr int kAttempts = 3;         // so often in all
+// Where a deformation fails, a finer and then a coarser sigma are tried: a closer likeness, then fewer corners.
+constexpr double kSigmas[] = {1, 0.6, 2.5};
 constexpr int kLeastTriangles = 4;   // charts of fewer are packed as they are
 constexpr double kTooDistorted = 4;  // E_d of an axis-aligned chart that is not worth it
 
@@ -115,8 +115,8 @@ class Aligner {
   }
 
   std::optional<std::vector<Vec2>> deformed(AxisAlignedChart& out) {
-    double sigma = sigma_;
-    for (int attempt = 0; attempt < kAttempts; ++attempt, sigma *= kCoarser) {
+    for (const double factor : kSigmas) {
+      const double sigma = factor * sigma_;
       Chart chart = chart_;
       BoundaryAngles boundary = polar_angles(chart);
       std::vector<double> angles = smoothed_angles(boundary, sigma * boundary.perimeter());
@@ -126,11 +126,11 @@ class Aligner {
       for (double& angle : boundary.angle_rad) angle += turn;
       out.quarter_turns = targets(boundary, angles, sigma, kCornerCost);
       if (out.quarter_turns.empty()) continue;
-      const auto uvs = deform_to_axes(chart, {boundary, out.quarter_turns}, [&] { monitor_.check(); });
-      if (uvs) {
-        out.way = AxisAlignedChart::Way::Deformed;
-        return accepted(boundary, *uvs, out);
-      }
+      auto shape = deform_to_axes(chart, {boundary, out.quarter_turns}, [&] { monitor_.check(); });
+      if (!shape) continue;
+      out.way = AxisAlignedChart::Way::Deformed;
+      out.quarter_turns = std::move(shape->quarter_turns);
+      return accepted(boundary, std::move(shape->uvs), out);
     }
     return std::nullopt;
   }
