@@ -29,7 +29,7 @@ COLUMNS = (
     ("valid", lambda r: "yes" if r.valid else "NO", "5"),
     ("met", lambda r: "yes" if r.met else "NO", "3"),
     ("nets", lambda r: str(r.nets), ">4"),
-    ("BL+ %", lambda r: text(100 * r.added_length, ".1f"), ">6"),
+    ("BL+ %", lambda r: text(100 * r.added_length, "z.1f"), ">6"),
     ("PE in", lambda r: text(r.pe_in, ".3f"), ">6"),
     ("PE", lambda r: text(r.pe, ".4f"), ">6"),
     ("E_d in", lambda r: text(r.e_d_in, ".4f"), ">8"),
@@ -119,14 +119,16 @@ def time_lines(rows):
     least = 0
     for most, limit in TIME_LIMITS:
         group = [r for r in rows if r.goal == "0.80 free" and not r.re_embedded and r.ok and least < r.triangles <= most]
+        least, low = most, least
+        if not group:
+            continue
         slow = [f"{r.folder}/{r.file} {r.time:.1f} s" for r in group if r.time > limit]
         out.append(
-            f"0.80 free, valid start, {least}-{most} triangles: at most {limit:g} s on {len(group) - len(slow)} of {len(group)}"
+            f"0.80 free, valid start, {low}-{most} triangles: at most {limit:g} s on {len(group) - len(slow)} of {len(group)}"
             + (": not " + ", ".join(slow) if slow else "")
             + f"; median {text(median([r.time for r in group]), '.2f')} s"
             + f", {text(median([r.newton_multiple for r in group if r.triangles >= NEWTON_TRIANGLES]), '.0f')} Newton iterations"
         )
-        least = most
     long = [f"{r.folder}/{r.file} at {r.goal} {r.time:.0f} s" for r in rows if r.time > LONGEST_RUN_S]
     out.append(f"over {LONGEST_RUN_S} s on one thread: {len(long)}" + (": " + ", ".join(long) if long else ""))
     return out

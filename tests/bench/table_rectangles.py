@@ -63,7 +63,7 @@ def goal_lines(rows):
         f"N3 mean {shown(mean([r.small_charts for r in deep]), '.1f')}, SA mean {shown(mean([r.smallest for r in deep]), '.2%')}",
         f"  PE mean {verdict(mean([r.pe for r in done]), PE_MEAN, '.1%', at_least=True)}",
         f"  files with a safety net: {len(nets)} of {len(rows)}: "
-        + verdict(len(nets) / len(rows), NETS_MOST, ".0%")
+        + verdict(len(nets) / len(rows), NETS_MOST, ".1%")
         + "".join(f"\n    {r.folder}/{r.file}: {r.nets}" for r in nets),
         *time_and_memory_lines(rows),
     ]
@@ -73,14 +73,16 @@ def time_and_memory_lines(rows):
     out, least = [], 0
     for up_to, limit in TIME_LIMITS:
         group = [row for row in rows if least < row.triangles <= up_to and math.isfinite(row.time)]
+        least, low = up_to, least
+        if not group:
+            continue
         slowest, newtons = most([row.time for row in group]), most([row.newton_multiple for row in group])
         slow = [f"{row.folder}/{row.file} {row.time:.1f} s" for row in group if row.time > limit]
         out.append(
-            f"  {least}-{up_to} triangles: at most {limit:g} s on {len(group) - len(slow)} of {len(group)}"
+            f"  {low}-{up_to} triangles: at most {limit:g} s on {len(group) - len(slow)} of {len(group)}"
             f"; slowest {shown(slowest, '.2f')} s, most Newton iterations {shown(newtons, '.0f')}"
             + (": not " + ", ".join(slow) if slow else "")
         )
-        least = up_to
     peak = max(rows, key=lambda row: row.peak_bytes if math.isfinite(row.peak_bytes) else 0)
     return [
         *out,

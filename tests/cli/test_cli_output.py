@@ -5,7 +5,7 @@ import os
 import stat
 
 import pytest
-from obj_shapes import box_efficiency, grid, records, uvs, without_uvs
+from obj_shapes import arc, box_efficiency, grid, records, uvs, without_uvs
 
 
 def refine(program, tmp_path, text, *options, name="in.obj"):
@@ -142,6 +142,25 @@ def test_report(program, tmp_path):
     for key in ("bound_met", "price", "iterations", "charts", "repairs", "warnings", "timings", "gap"):
         assert key in told
     assert set(told["seconds"]) == {"read", "refine", "write"}
+
+
+def test_cut_is_told(program, tmp_path):
+    """A C bends no further than its rectangles: what was added is in the file, the report and the summary."""
+    report = tmp_path / "r.json"
+    text = arc(12)
+    result, told = refine(program, tmp_path, text, "--seams", "rectangles", "--candidates", "50", "--report", report)
+    assert [line for line in result.splitlines() if line.startswith("v ")][: text.count("v ")] == records(text, "v")
+    for word in ("cut: ", "seams BL", "charts", "added", "packed to", "align"):
+        assert word in told
+    written = json.loads(report.read_text())
+    assert written["options"]["rectangles"] == {"sigma": 0.004, "candidates": 50, "omega": 0.1, "until_bound": False}
+    assert {"align", "layout", "reduce"} <= {stage["stage"] for stage in written["timings"]}
+    assert written["rectangles"]["trails"] >= 0
+    added = written["files"][0]
+    assert len(records(result, "f")) == added["faces"] + added["added_faces"]
+    assert len(records(result, "v")) == added["vertices"] + added["added_vertices"]
+    before, after = written["before"], written["after"]
+    assert after["boundary_length"] >= before["boundary_length"]
 
 
 def test_measure_prints_a_table_and_changes_nothing(program, tmp_path):
