@@ -6,13 +6,13 @@ from bpy.props import StringProperty
 
 from . import tasks
 from .core.summary import headline
-from .properties import other_properties, pe_bound_property, sigma_property, to_options
+from .properties import other_properties, pe_bound_property, seams_property, sigma_property, to_options
 
 POLL_SECONDS = 0.1
 
 
 class UV_OT_atlas_refine(bpy.types.Operator):
-    """Bend and place the charts of the active object's UV map until it holds the packing efficiency bound; adds no seam"""
+    """Bend, place and, where Seams allows it, cut the charts of the active object's UV map until it holds the packing efficiency bound"""
 
     bl_idname = "uv.atlas_refine"
     bl_label = "Refine Atlas"
@@ -20,6 +20,7 @@ class UV_OT_atlas_refine(bpy.types.Operator):
 
     __annotations__ = {
         "pe_bound": pe_bound_property(),
+        "seams": seams_property(),
         "sigma": sigma_property(),
         **other_properties(),
         "uv_map": StringProperty(name="UV Map", description="Name or index of the UV map; empty: the active one"),
@@ -122,10 +123,9 @@ class UV_OT_atlas_refine(bpy.types.Operator):
 def draw_options(layout, holder):
     """The options, in the panel and in the redo panel alike."""
     layout.prop(holder, "pe_bound")
-    column = layout.column(align=True)
-    column.enabled = False
-    column.prop(holder, "sigma")
-    column.label(text="Sigma is for Rectangles only")
+    layout.prop(holder, "seams")
+    if holder.seams == "RECTANGLES":
+        layout.prop(holder, "sigma")
     layout.prop(holder, "density")
     layout.prop(holder, "aspect")
     layout.prop(holder, "gap")

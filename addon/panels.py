@@ -38,7 +38,7 @@ class IMAGE_PT_atlas_refine(_AtlasRefinePanel, bpy.types.Panel):
         row.scale_y = 1.4
         row.operator_context = "INVOKE_DEFAULT"
         button = row.operator(UV_OT_atlas_refine.bl_idname, icon="UV")
-        for name in (*OPTION_NAMES, "sigma"):
+        for name in OPTION_NAMES:
             setattr(button, name, getattr(settings, name))
 
 
@@ -51,12 +51,12 @@ class IMAGE_PT_atlas_refine_result(_AtlasRefinePanel, bpy.types.Panel):
         return super().poll(context) and tasks.last is not None
 
     def draw(self, _context):
-        object_name, result = tasks.last
+        object_name, face_count, result = tasks.last
         self.layout.label(text=f"{object_name}: {result.intervention}", icon="CHECKMARK" if result.bound_met else "ERROR")
         grid = self.layout.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
         for text in ("", "Before", "After"):
             grid.label(text=text)
-        for row in figures(result):
+        for row in figures(result, face_count):
             for text in row:
                 grid.label(text=text)
 

@@ -3,7 +3,7 @@
 
 import bpy
 
-from .properties import pe_bound_property, sigma_property
+from .properties import pe_bound_property, seams_property, sigma_property
 
 
 def get():
@@ -13,13 +13,14 @@ def get():
 class AtlasRefinePreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
-    __annotations__ = {"pe_bound": pe_bound_property(), "sigma": sigma_property()}
+    __annotations__ = {"pe_bound": pe_bound_property(), "seams": seams_property(), "sigma": sigma_property()}
 
     def draw(self, _context):
         column = self.layout.column()
         column.use_property_split = True
         column.label(text="Defaults for new scenes")
         column.prop(self, "pe_bound")
+        column.prop(self, "seams")
         column.prop(self, "sigma")
 
 

@@ -5,7 +5,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .core.options import Options
 
-OPTION_NAMES = ("pe_bound", "aspect", "density", "gap", "gap_px", "texture_size", "seed", "best_effort")
+OPTION_NAMES = ("pe_bound", "seams", "sigma", "aspect", "density", "gap", "gap_px", "texture_size", "seed", "best_effort")
 
 
 def pe_bound_property(**more):
@@ -14,9 +14,31 @@ def pe_bound_property(**more):
         description="Packing efficiency to reach: the part of the UV box that charts cover",
         default=Options.pe_bound,
         soft_min=0.05,
-        soft_max=0.99,  # soft: a script's 1.2 must reach the engine and be refused there, not be cut off in silence
+        soft_max=0.99,  # soft, here and below: a script's 1.2 must reach the engine and be refused there, not be cut off in silence
         step=1,
         precision=3,
+        **more,
+    )
+
+
+#: Their numbers are stored in files.
+SEAMS = [
+    ("NONE", "None", "Charts bend inside a shrinking box; the mesh stays as it is", 0),
+    (
+        "RECTANGLES",
+        "Rectangles (Liu et al. 2019)",
+        "Charts become axis-aligned and are cut into rectangles; adds seams, which divide faces where they cross them",
+        1,
+    ),
+]
+
+
+def seams_property(**more):
+    return EnumProperty(
+        name="Seams",
+        description="Where new seams may come from",
+        items=SEAMS,
+        default=Options.seams,
         **more,
     )
 
@@ -24,11 +46,10 @@ def pe_bound_property(**more):
 def sigma_property(**more):
     return FloatProperty(
         name="Sigma",
-        description="Smoothing of the chart borders' directions, as a part of their length. "
-        "Applies to the seams mode Rectangles, which a later version brings; without effect here",
-        default=0.004,
-        min=0.0001,
-        max=0.1,
+        description="Smoothing of the chart borders' directions, as a part of their length; for the seams mode Rectangles",
+        default=Options.sigma,
+        soft_min=0.0001,
+        soft_max=0.1,
         step=0.1,
         precision=4,
         **more,

@@ -5,14 +5,19 @@ import bpy
 from bpy.props import PointerProperty
 
 from . import preferences
-from .properties import other_properties, pe_bound_property, sigma_property
+from .properties import SEAMS, other_properties, pe_bound_property, seams_property, sigma_property
 
 
-def _follow_preference(name):
+def _seams_number(identifier):
+    """An enum's getter gives its number."""
+    return next(number for name, _, _, number in SEAMS if name == identifier)
+
+
+def _follow_preference(name, stored=lambda value: value):
     """A scene's value is the preference's until somebody sets it there: preferences are the defaults of new scenes."""
     key = f"own_{name}"
     return {
-        "get": lambda scene_settings: scene_settings.get(key, getattr(preferences.get(), name)),
+        "get": lambda scene_settings: scene_settings.get(key, stored(getattr(preferences.get(), name))),
         "set": lambda scene_settings, value: scene_settings.__setitem__(key, value),
     }
 
@@ -22,6 +27,7 @@ class AtlasRefineSettings(bpy.types.PropertyGroup):
 
     __annotations__ = {
         "pe_bound": pe_bound_property(**_follow_preference("pe_bound")),
+        "seams": seams_property(**_follow_preference("seams", _seams_number)),
         "sigma": sigma_property(**_follow_preference("sigma")),
         **other_properties(),
     }

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One refinement: read the mesh, run the engine beside Blender, write the UVs. At most one runs with a window's progress."""
+"""One refinement: read the mesh, run the engine beside Blender, write what comes. At most one runs with a window's progress."""
 
 import os
 
 import bpy
 
+from .bridge import cuts
 from .bridge import mesh as bridge
 from .core.atlas import stored_uvs
+from .core.cuts import plan_cut
 from .engine import AtlasRefineError, start
 
 #: What a task may fail with for reasons that lie in the object or the options.
@@ -14,7 +16,7 @@ FAILURES = (AtlasRefineError, bridge.MeshError, ValueError)
 
 #: The task whose progress the panel shows.
 running = None
-#: The result that the panel shows, and the name of its object.
+#: The name of an object, how many faces it had, and the result that the panel shows.
 last = None
 
 
@@ -23,6 +25,8 @@ class Task:
 
     def __init__(self, obj, uv_map, options, beside_window=False):
         bridge.check_writable(obj)
+        if options.seams != "NONE":
+            cuts.check_divisible(obj)
         self.object_name = obj.name
         self.uv_map = bridge.find_uv_map(obj.data, uv_map)
         self.uneven_scale = bridge.has_uneven_scale(obj)
@@ -31,7 +35,7 @@ class Task:
         self.job = start(*self.atlas.as_tuple(), name=obj.name, threads=threads, **options.engine_arguments())
 
     def finish(self):
-        """Waits for the engine, writes the UVs and returns the result; raises one of FAILURES with the mesh as it was."""
+        """Waits for the engine, writes the result and returns it; raises one of FAILURES with the mesh as it was."""
         global last
         result = self.job.result()
         obj = bpy.data.objects.get(self.object_name)
@@ -39,10 +43,16 @@ class Task:
             raise bridge.MeshError("the object is gone")
         if self.uv_map not in obj.data.uv_layers or not bridge.read_atlas(obj, self.uv_map).same_as(self.atlas):
             raise bridge.MeshError("the mesh was changed meanwhile; nothing was written")
-        if result.intervention != "unchanged":
-            bridge.write_uvs(obj, self.uv_map, stored_uvs(result.corner_uvs))
-        last = (self.object_name, result)
+        self._write(obj, result)
+        last = (self.object_name, len(self.atlas.face_offsets) - 1, result)
         return result
+
+    def _write(self, obj, result):
+        if result.cut is not None:
+            cuts.check_divisible(obj)  # again: its mode may be another by now
+            cuts.write_cut(obj, self.uv_map, plan_cut(self.atlas, result.cut, stored_uvs(result.corner_uvs)))
+        elif result.intervention != "unchanged":
+            bridge.write_uvs(obj, self.uv_map, stored_uvs(result.corner_uvs))
 
     def warnings(self, result):
         if self.uneven_scale:

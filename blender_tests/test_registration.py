@@ -32,7 +32,9 @@ class Registration(unittest.TestCase):
         self.assertAlmostEqual(properties["pe_bound"].default, 0.8)
         self.assertEqual(properties["density"].default, "KEEP")
         self.assertEqual(properties["gap"].default, "AUTO")
-        self.assertIn("Rectangles", properties["sigma"].description)
+        self.assertEqual([item.identifier for item in properties["seams"].enum_items], ["NONE", "RECTANGLES"])
+        self.assertEqual(properties["seams"].default, "NONE")
+        self.assertAlmostEqual(properties["sigma"].default, 0.004)
         panel = bpy.types.IMAGE_PT_atlas_refine
         self.assertEqual((panel.bl_space_type, panel.bl_region_type, panel.bl_category), ("IMAGE_EDITOR", "UI", "Atlas Refine"))
         self.assertEqual(bpy.context.scene.atlas_refine.density, "KEEP")
@@ -44,16 +46,26 @@ class Registration(unittest.TestCase):
         preferences.pe_bound = 0.9
         self.assertAlmostEqual(bpy.context.scene.atlas_refine.pe_bound, 0.7)
         self.assertAlmostEqual(bpy.data.scenes.new("Another").atlas_refine.pe_bound, 0.9)
+        self.addCleanup(setattr, preferences, "seams", preferences.seams)
+        self.assertEqual(bpy.context.scene.atlas_refine.seams, "NONE")
+        preferences.seams = "RECTANGLES"
+        self.assertEqual(bpy.context.scene.atlas_refine.seams, "RECTANGLES")
+        bpy.context.scene.atlas_refine.seams = "NONE"
+        self.assertEqual(bpy.context.scene.atlas_refine.seams, "NONE")
 
     def test_a_scene_keeps_its_settings_in_the_file(self):
         bpy.context.scene.atlas_refine.pe_bound = 0.65
         bpy.context.scene.atlas_refine.aspect = "SQUARE"
+        bpy.context.scene.atlas_refine.seams = "RECTANGLES"
+        bpy.context.scene.atlas_refine.sigma = 0.01
         path = pathlib.Path(bpy.app.tempdir) / "settings.blend"
         bpy.ops.wm.save_as_mainfile(filepath=str(path))
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         bpy.ops.wm.open_mainfile(filepath=str(path))
         self.assertAlmostEqual(bpy.context.scene.atlas_refine.pe_bound, 0.65)
         self.assertEqual(bpy.context.scene.atlas_refine.aspect, "SQUARE")
+        self.assertEqual(bpy.context.scene.atlas_refine.seams, "RECTANGLES")
+        self.assertAlmostEqual(bpy.context.scene.atlas_refine.sigma, 0.01)
 
     def test_disabled_and_enabled_again(self):
         for _ in range(2):

@@ -16,8 +16,9 @@ def check_divisible(obj):
         raise MeshError("seams that cut faces need object mode or edit mode")
     if obj.mode == "OBJECT" and obj.data.is_editmode:
         raise MeshError("another object of the same mesh is in edit mode")
-    if any(modifier.type == "MULTIRES" for modifier in obj.modifiers):
-        raise MeshError("seams that cut faces would spoil the sculpted levels of its Multiresolution modifier: apply it first")
+    for user in bpy.data.objects:
+        if user.data is obj.data and any(modifier.type == "MULTIRES" for modifier in user.modifiers):
+            raise MeshError(f"seams that cut faces would spoil the Multiresolution levels of {user.name}: apply them first")
 
 
 def write_cut(obj, uv_map, plan):

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 @dataclass(frozen=True)
 class Options:
     pe_bound: float = 0.8
+    seams: str = "NONE"  # NONE or RECTANGLES
+    sigma: float = 0.004  # of RECTANGLES
     aspect: str = "FREE"  # FREE or SQUARE
     density: str = "KEEP"  # KEEP or EQUAL
     gap: str = "AUTO"  # AUTO or PIXELS
@@ -20,11 +22,14 @@ class Options:
         arguments = {
             "pe_bound": round(self.pe_bound, 6),  # Blender's properties are float32: 0.8 arrives as 0.800000012
             "box_aspect": 1.0 if self.aspect == "SQUARE" else 0.0,
+            "seams": self.seams.lower(),
             "density": self.density.lower(),
             "seed": self.seed,
             "best_effort": self.best_effort,
             "stored": "float32",
         }
+        if self.seams == "RECTANGLES":
+            arguments["sigma"] = round(self.sigma, 6)
         if self.gap == "PIXELS":
             arguments.update(gap=self.gap_px / self.texture_size, gap_unit="long_side")
         return arguments

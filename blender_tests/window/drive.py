@@ -22,9 +22,11 @@ from support import MODULE, add_mesh, enable_addon, get_uvs, packing_efficiency
 RESULT = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
 STEP_SECONDS = 0.05
 WAIT_LIMIT_SECONDS = 40
-#: Where the tab and the button are in the sidebar of Blender 3.4.1's UV editor, in pixels from its right and top edge.
+#: Where things are in the sidebar of Blender 3.4.1's UV editor, in pixels from its right and top edge.
 TAB = (10, 130)
-BUTTON = (130, 235)
+SEAMS = (84, 70)
+BUTTON = (130, 213)
+ROW = 23
 
 
 def slow_mesh():
@@ -172,6 +174,36 @@ def test_edit_mode_from_the_button():
     assert obj.mode == "EDIT"
     bpy.ops.object.mode_set(mode="OBJECT")
     assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
+
+
+def test_rectangles_by_clicks():
+    obj = add_mesh(name="Cut")
+    bpy.context.view_layer.objects.active = obj
+    bpy.context.scene.atlas_refine.pe_bound = 0.8
+    faces, positions = len(obj.data.polygons), len(obj.data.vertices)
+    bpy.ops.ed.undo_push(message="Made a mesh")
+    yield from click(SEAMS)
+    yield 0.5
+    picture("seams")
+    yield from click((SEAMS[0], SEAMS[1] + 2 * ROW))  # the menu opens below: None, Rectangles
+    yield 0.5
+    picture("rectangles")
+    assert bpy.context.scene.atlas_refine.seams == "RECTANGLES"
+    tasks().last = None
+    yield from click((BUTTON[0], BUTTON[1] + ROW))  # sigma is shown above it now
+    yield lambda: tasks().last is not None and not running()
+    yield 0.3
+    picture("cut")
+    obj = bpy.data.objects["Cut"]
+    result = tasks().last[2]
+    assert result.intervention == "cut", result.intervention
+    assert len(obj.data.polygons) == len(result.cut.face_sources) > faces
+    assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
+    yield from key("Z", ctrl=True)
+    yield 0.5
+    mesh = bpy.data.objects["Cut"].data
+    assert (len(mesh.polygons), len(mesh.vertices)) == (faces, positions), "one undo does not take it back"
+    bpy.context.scene.atlas_refine.seams = "NONE"
 
 
 def test_another_file_ends_a_run():

@@ -37,6 +37,13 @@ def test_the_aspect_and_the_density():
     assert Options().engine_arguments()["stored"] == "float32"
 
 
+def test_sigma_goes_with_rectangles_only():
+    arguments = Options(seams="RECTANGLES", sigma=float(np.float32(0.004))).engine_arguments()
+    assert (arguments["seams"], arguments["sigma"]) == ("rectangles", 0.004)
+    arguments = Options(sigma=7.0).engine_arguments()
+    assert (arguments["seams"], "sigma" in arguments) == ("none", False)
+
+
 def test_uvs_that_float32_cannot_hold_are_refused():
     assert stored_uvs(np.array([[0.5, 0.25]])).dtype == np.float32
     with pytest.raises(ValueError, match="single precision"):
@@ -55,6 +62,8 @@ def test_the_words_of_a_result():
     result = atlas_refine.refine(*shapes.loose())
     assert "PE 0.167 -> 0.8" in headline(result)
     assert "E_d" in headline(result)
-    assert [row[0] for row in figures(result)] == ["PE", "E_d", "Stretch", "Gap", "Charts", "Seams"]
+    rows = {name: (before, after) for name, before, after in figures(result, face_count=102)}
+    assert list(rows) == ["PE", "E_d", "Stretch", "Gap", "Charts", "Seams", "BL", "Faces"]
+    assert rows["Faces"] == ("102", "102")
     one_chart = atlas_refine.refine(*shapes.tight())
-    assert figures(one_chart)[3] == ("Gap", "-", "-")
+    assert figures(one_chart, face_count=64)[3] == ("Gap", "-", "-")
