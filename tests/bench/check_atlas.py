@@ -20,8 +20,8 @@ import numpy as np
 from check_cut import divided, joined_anew
 from exact import exactly_touch, folds_back, orientation, polygon_is_simple
 from obj_text import one_after_the_other, read_obj
+from triangles import distortion, fan_triangles, least_energy_triangles
 
-SLIVER = 1e-7  # triangles in space lower than this part of their longest edge have no shape of their own
 NEAR = 1e-9  # of the coordinates' size: closer than this only rational arithmetic decides
 PAIRS_AT_ONCE = 2_000_000
 
@@ -118,15 +118,6 @@ def face_areas(obj, following):
 
 
 # ------------------------------------------------------------------------------------------------------------------ the atlas
-
-
-def fan_triangles(offsets):
-    """Corners of the fan triangulation, the face of each triangle."""
-    count = np.diff(offsets) - 2
-    face = np.repeat(np.arange(len(count)), count)
-    step = np.arange(len(face)) - np.repeat(np.cumsum(count) - count, count)
-    first = offsets[face]
-    return np.stack([first, first + step + 1, first + step + 2], axis=1), face
 
 
 def flipped_faces(obj, sense, triangles, face):
@@ -259,36 +250,6 @@ class Boundary:
         return wrong
 
 
-def distortion(obj, triangles):
-    """E_d, eq. (9), under the global scale that minimises it, and the 99 % and largest stretch under that scale."""
-    p = [obj.positions[obj.corner_vertex[triangles[:, k]]] for k in range(3)]
-    u = [obj.corner_uv[triangles[:, k]] for k in range(3)]
-    e1, e2, d1, d2 = p[1] - p[0], p[2] - p[0], u[1] - u[0], u[2] - u[0]
-    double_area = np.linalg.norm(np.cross(e1, e2), axis=1)
-    longest = np.maximum.reduce([np.linalg.norm(e, axis=1) for e in (e1, e2, e2 - e1)])
-    used = double_area > SLIVER * longest**2
-    e1, e2, d1, d2, double_area = e1[used], e2[used], d1[used], d2[used], double_area[used]
-    x1 = np.linalg.norm(e1, axis=1)
-    x2, y2 = np.einsum("ij,ij->i", e1, e2) / x1, double_area / x1
-    column1 = d1 / x1[:, None]
-    column2 = (d2 - column1 * x2[:, None]) / y2[:, None]
-    square = np.einsum("ij,ij->i", column1, column1) + np.einsum("ij,ij->i", column2, column2)
-    det = np.abs(column1[:, 0] * column2[:, 1] - column1[:, 1] * column2[:, 0])
-    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-        inverse_square = square / det**2
-        weight = double_area / double_area.sum()
-        forth, back = float(weight @ square), float(weight @ inverse_square)
-        scale = (back / forth) ** 0.25
-        root = np.sqrt(np.maximum(square**2 - 4 * det**2, 0))
-        largest = np.sqrt((square + root) / 2)
-        stretch = np.maximum(largest * scale, largest / (det * scale))
-    if not math.isfinite(back):
-        return math.inf, math.inf, math.inf
-    order = np.argsort(stretch)
-    at = int(np.searchsorted(np.cumsum(weight[order]), 0.99))
-    return math.sqrt(forth * back) / 2, float(stretch[order][min(at, len(order) - 1)]), float(stretch.max())
-
-
 # ------------------------------------------------------------------------------------------------------------------ the check
 
 
@@ -320,8 +281,8 @@ def check(in_path, out_path, pe_bound=None, aspect=0.0, gap=None, gap_unit="diag
     _check_efficiency(area, box, pe_bound, aspect, found)
     _check_boundary(Boundary(after, topology), box, gap, gap_unit, found)
 
-    found["e_d_in"] = distortion(before, fan_triangles(before.offsets)[0])[0]
-    found["e_d"], found["stretch_99"], found["stretch_max"] = distortion(after, triangles)
+    found["e_d_in"] = distortion(before, least_energy_triangles(before))[0]
+    found["e_d"], found["stretch_99"], found["stretch_max"] = distortion(after, least_energy_triangles(after))
     found["ok"] = not problems
     found["seconds"] = round(time.monotonic() - started, 3)
     return found

@@ -15,6 +15,7 @@ import check_atlas
 
 PROGRAM_LIMIT_S = 180  # three times what is allowed
 HELPER_LIMIT_S = 900
+E_D_TOLERANCE = 0.01  # triangles that are slivers in space are counted or not
 
 
 @dataclass(frozen=True)
@@ -200,9 +201,21 @@ def gap_to_check(report, goal):
     return report["gap"]["value"] * max(width, height) * math.sqrt(2) / math.hypot(width, height)
 
 
+def check_report(row, found):
+    """What the program says of its result must be what the file holds; its E_d may be that of any way to divide polygons."""
+    said = {"charts": (row.charts, found.get("charts"), 0), "pe": (row.pe, found.get("pe_fixed_aspect"), 1e-9)}
+    said |= {"bl": (row.bl, found.get("bl"), 1e-9)}
+    for name, (told, seen, tolerance) in said.items():
+        if seen is not None and not abs(told - seen) <= tolerance * abs(seen):
+            found["problems"].append(f"report: {name} is {told}, the file has {seen}")
+    if "e_d" in found and row.e_d < found["e_d"] * (1 - E_D_TOLERANCE):
+        found["problems"].append(f"report: E_d is {row.e_d:.4f}, the file has {found['e_d']:.4f} at least")
+
+
 def fill_from_check(row, mesh, output, goal, report):
     aspect = 1.0 if goal.aspect == "square" else 0.0
     found = check_atlas.check(mesh, output, goal.bound, aspect, gap_to_check(report, goal), cuts=goal.cuts)
+    check_report(row, found)
     problems = [problem for problem in found["problems"] if not problem.startswith("PE:")]
     row.added_seams = found.get("added_seams")
     row.valid, row.met = not problems, found["ok"] or "PE" not in " ".join(found["problems"])

@@ -6,7 +6,7 @@ texture, read bilinearly, and the signal [Sander et al. 2002]. A chart that lies
 """
 
 import numpy as np
-from check_atlas import fan_triangles
+from triangles import least_energy_triangles
 
 CELLS = 100
 TEXTURE = 4096
@@ -29,7 +29,7 @@ class Surface:
     """An atlas' triangles in texel units of a square texture, whose side is the longer side of the atlas."""
 
     def __init__(self, obj, texture):
-        corners = fan_triangles(obj.offsets)[0]
+        corners = least_energy_triangles(obj)
         self.space = obj.positions[obj.corner_vertex[corners]]
         uv = obj.corner_uv - obj.corner_uv.min(axis=0)
         self.plane = (uv * (texture / np.ptp(uv, axis=0).max()))[corners]
