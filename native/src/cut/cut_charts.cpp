@@ -42,6 +42,7 @@ class Cutter {
     ends_.emplace_back();
     if (aligned_[c].boundary.empty()) return;
     TrailTracer tracer(meshes_.back(), aligned_[c].boundary, aligned_[c].quarter_turns);
+    for (const TrailStart& start : trails) tracer.hold(start.vertex);
     for (const TrailStart& start : trails)
       ends_.back().push_back(tracer.trace(start, TrailTracer::Until::BoundaryOrTrail).back());
   }

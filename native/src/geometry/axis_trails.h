@@ -22,6 +22,9 @@ class TrailTracer {
 
   enum class Until { Boundary, BoundaryOrTrail };
 
+  /// Vertices that are not to move: the starts of trails, before any of them is traced.
+  void hold(int vertex) { marks_[vertex] |= kKeepX | kKeepY; }
+
   /// The vertices passed, the start first. The start alone where the way leads out of the chart or along its boundary. Where a
   /// trail would pass a vertex closely the vertex is drawn onto it, if its triangles allow; else the edge is divided.
   std::vector<int> trace(const TrailStart& start, Until until);

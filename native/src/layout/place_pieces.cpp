@@ -2,9 +2,9 @@
 #include "layout/place_pieces.h"
 
 #include <array>
-#include <cassert>
 #include <map>
 
+#include "atlas_refine/error.h"
 #include "measure/distortion.h"
 
 namespace atlas_refine {
@@ -27,7 +27,9 @@ std::vector<Chart> place_pieces(const Layout& layout, std::vector<Chart> pieces,
     const Box box = uv_box({pieces[p]});
     // Parts of a chart that overlaps itself may have one and the same box: their places are as good for either.
     const auto found = places.find(key_of(charts[p], box));
-    assert(found != places.end());
+    if (found == places.end())
+      throw RefineError(ErrorCode::NotCertified, "layout",
+                        "the cuts of chart " + std::to_string(charts[p]) + " left a piece without a place", charts[p]);
     const PlacedPiece& place = *found->second;
     for (Vec2& uv : pieces[p].uvs) {
       uv = place.quarter_turn ? Vec2(box.max.y() - uv.y(), uv.x() - box.min.x()) : Vec2(uv - box.min);

@@ -26,6 +26,7 @@ class QuadMeshMaker {
       add_corner(i, before - aligned_.quarter_turns[i], false);
     }
     for (int i : extra_corner_places(extra_corners)) add_corner(i, 0, true);
+    for (const auto& trail : out_.trails) ends_.push_back(tracer_.trace(trail.start, TrailTracer::Until::Boundary).back());
     for (std::size_t t = 0; t < ends_.size(); ++t) paths_.push_back(tracer_.path(out_.trails[t].start, ends_[t]));
     find_nodes();
     find_faces();
@@ -55,7 +56,7 @@ class QuadMeshMaker {
     std::vector<int> trails;
     for (int j = 1; j <= 1 + reflex; ++j) {
       const TrailStart start{aligned_.boundary[i], aligned_.quarter_turns[i] + j};
-      ends_.push_back(tracer_.trace(start, TrailTracer::Until::Boundary).back());
+      tracer_.hold(start.vertex);
       trails.push_back(static_cast<int>(out_.trails.size()));
       out_.trails.push_back({start, {}, {}, 0});
     }
