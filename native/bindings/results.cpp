@@ -129,6 +129,16 @@ void bind_cut_mesh(py::module_& module) {
       });
 }
 
+void bind_rectangle_report(py::module_& module) {
+  ValueClass<RectangleReport>(module, "RectangleReport", "How the paper's road went; each field is explained in the type stub.")
+      .field("tutte_charts", &RectangleReport::tutte_charts)
+      .field("boxed_charts", &RectangleReport::boxed_charts)
+      .field("holes_cut", &RectangleReport::holes_cut)
+      .field("extra_corners", &RectangleReport::extra_corners)
+      .field("trails", &RectangleReport::trails)
+      .field("packed_pe", &RectangleReport::packed_pe);
+}
+
 void bind_refine_result(py::module_& module) {
   ValueClass<RefineResult>(module, "RefineResult", "A refined atlas with its certificate's figures.")
       .property("corner_uvs", [](const RefineResult& r) { return to_array(r.corner_uvs); })
@@ -141,6 +151,7 @@ void bind_refine_result(py::module_& module) {
       .field("price", &RefineResult::price)
       .field("iterations", &RefineResult::iterations)
       .field("charts", &RefineResult::charts)
+      .field("rectangles", &RefineResult::rectangles)
       .field("repairs", &RefineResult::repairs)
       .field("warnings", &RefineResult::warnings)
       .property("timings", [](const RefineResult& r) {
@@ -183,6 +194,7 @@ void bind_results(py::module_& module) {
       .field("stretch_max", &ChartReport::stretch_max);
   bind_measures(module);
   bind_cut_mesh(module);
+  bind_rectangle_report(module);
   bind_refine_result(module);
 }
 

@@ -113,6 +113,21 @@ class CutMesh:
     def new_seams(self) -> NDArray[np.int32]: ...  # (S, 2): the edges that were cut as vertex pairs, each once
     def as_dict(self) -> dict[str, Any]: ...
 
+class RectangleReport:
+    @property
+    def tutte_charts(self) -> int: ...  # that Tutte's embedding onto a rectangle had to save
+    @property
+    def boxed_charts(self) -> int: ...  # packed by their bounding box as they were
+    @property
+    def holes_cut(self) -> int: ...  # boundary loops that were joined to the outer one
+    @property
+    def extra_corners(self) -> int: ...  # added to each chart because the bound was missed without
+    @property
+    def trails(self) -> int: ...  # that the charts were cut along
+    @property
+    def packed_pe(self) -> float: ...  # of the rectangles, before the distortion was reduced
+    def as_dict(self) -> dict[str, Any]: ...
+
 class RefineResult:
     @property
     def corner_uvs(self) -> NDArray[np.float64]: ...  # (C, 2) of `cut` or, without it, of the input; a new array
@@ -134,6 +149,8 @@ class RefineResult:
     def iterations(self) -> int: ...  # Newton iterations, all stages
     @property
     def charts(self) -> list[ChartReport]: ...
+    @property
+    def rectangles(self) -> RectangleReport | None: ...  # only where the charts were cut
     @property
     def repairs(self) -> list[str]: ...
     @property
