@@ -262,6 +262,25 @@ class Cuts(unittest.TestCase):
         plan, _ = self.cut(obj, lines=[(0, 3.25, [10]), (1, 2.25, [10], 3.25)])
         self.assertEqual(np.bincount(plan.face_sources).tolist(), [1] * 10 + [3])
 
+    def test_doubled_vertices_stay_apart_beside_a_shared_new_one(self):
+        """Two quads of the same positions along their common side, as importers make them: a cut across both."""
+        positions, offsets, corners, uvs = shapes.join(shapes.grid(2, 1))
+        cut, cut_uvs = Cutter(positions, offsets, corners, uvs).cut(1, 0.5).result()
+        apart = {1: 6, 4: 7}
+        corners = [apart.get(vertex, vertex) if k >= 4 else vertex for k, vertex in enumerate(corners.tolist())]
+        obj = add_mesh((np.concatenate([positions, positions[[1, 4]]]), offsets, np.array(corners), uvs))
+        sources = np.repeat(cut.face_sources, np.diff(cut.face_offsets)).tolist()
+        moved = [vertex + 2 if vertex >= 6 else vertex for vertex in cut.corner_vertices.tolist()]
+        moved = [apart.get(vertex, vertex) if face == 1 else vertex for vertex, face in zip(moved, sources, strict=True)]
+        cut.corner_vertices, cut.new_seams = np.array(moved, dtype=np.int32), cut.new_seams + 2
+        plan = core("cuts").plan_cut(bridge("mesh").read_atlas(obj, "UVMap"), cut, cut_uvs)
+        bridge("cuts").write_cut(obj, "UVMap", plan)
+        self.assertEqual(len(obj.data.polygons), 4)
+        self.assertFalse(obj.data.validate(verbose=True))
+        used = {key for polygon in obj.data.polygons for key in polygon.edge_keys}
+        self.assertEqual(used, {edge.key for edge in obj.data.edges}, "an edge without a face")
+        self.assertEqual(sum(edge.use_seam for edge in obj.data.edges), 2)
+
     def test_selection_and_hiding_follow(self):
         for mode in ("OBJECT", "EDIT"):
             with self.subTest(mode=mode):

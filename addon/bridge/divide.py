@@ -19,7 +19,7 @@ def divide(mesh, uv_map, plan):
         if verts[vertex] is None:  # inside of a face
             verts[vertex] = mesh.verts.new()
     pieces = _make_pieces(mesh, plan, verts, faces, changed)
-    _fill_corners(mesh, plan, pieces, verts, source_loops)
+    _fill_corners(mesh, plan, verts, pieces, source_loops)
     _place_new_vertices(mesh, plan, verts)
     _remove_divided(mesh, faces, set(pieces))
     _mark_seams(mesh, plan, verts)
@@ -107,14 +107,14 @@ class _Sampler:
             mesh.verts.remove(vert)
 
 
-def _fill_corners(mesh, plan, pieces, verts, source_loops):
+def _fill_corners(mesh, plan, verts, pieces, source_loops):
     """Gives the corners of changed faces, and the new vertices, what the corners carry of which they are the mean."""
-    sampler, filled = _Sampler(mesh), set()
+    sampler, filled, changed = _Sampler(mesh), set(), plan.changed_faces()
     vertices, weights = plan.atlas.corner_vertices.tolist(), plan.corner_weights.tolist()
-    for piece, (begin, end) in zip(pieces, _spans(plan), strict=True):
-        sources = [[source_loops.get(corner) for corner in three] for three in plan.corner_sources[begin:end].tolist()]
-        if sources[0][0] is None:
-            continue  # not a changed face
+    for piece, face, (begin, end) in zip(pieces, plan.face_sources.tolist(), _spans(plan), strict=True):
+        if face not in changed:
+            continue
+        sources = [[source_loops[corner] for corner in three] for three in plan.corner_sources[begin:end].tolist()]
         place = {loop.vert: k for k, loop in enumerate(piece.loops)}
         for vertex, three, means in zip(vertices[begin:end], sources, weights[begin:end], strict=True):
             k = place[verts[vertex]]

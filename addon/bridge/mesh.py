@@ -83,12 +83,12 @@ def _read_mesh(mesh, uv_map):
 def read_edit_mesh(mesh, uv_map):
     layer = _edit_layer(mesh, uv_map)
     mesh.verts.index_update()
-    positions = np.array([vert.co for vert in mesh.verts], dtype=np.float32).reshape(-1, 3)
+    positions = np.array([value for vert in mesh.verts for value in vert.co], dtype=np.float32).reshape(-1, 3)
     sizes = [len(face.loops) for face in mesh.faces]
     offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
     corner_vertices = np.array([loop.vert.index for face in mesh.faces for loop in face.loops], dtype=np.int32)
-    uvs = np.array([loop[layer].uv for face in mesh.faces for loop in face.loops], dtype=np.float32).reshape(-1, 2)
-    return AtlasArrays(positions, offsets, corner_vertices, uvs)
+    uvs = np.array([value for face in mesh.faces for loop in face.loops for value in loop[layer].uv], dtype=np.float32)
+    return AtlasArrays(positions, offsets, corner_vertices, uvs.reshape(-1, 2))
 
 
 def _write_edit_mesh(mesh, uv_map, uvs):

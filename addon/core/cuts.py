@@ -96,7 +96,7 @@ def same_faces(mine, theirs):
 
 
 def _means(values, indices, weights):
-    """Weighted means of three rows each. Always added in the same order: what two faces share stays equal to the last bit."""
+    """Weighted means of three rows each."""
     terms = values[indices] * weights[:, :, None]
     return terms[:, 0] + terms[:, 1] + terms[:, 2]
 
@@ -153,7 +153,7 @@ def _lookup(source, corner_vertices, faces, vertices):
     corner_faces = np.repeat(np.arange(len(source.face_offsets) - 1), np.diff(source.face_offsets))
     keys = corner_faces * stride + corner_vertices
     order = np.argsort(keys, kind="stable")
-    wanted = faces[:, None] * stride + vertices
+    wanted = faces[:, None].astype(np.int64) * stride + vertices
     place = np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)
     return np.where(keys[order][place] == wanted, order[place], -1)
 

@@ -94,6 +94,14 @@ def test_doubled_vertices_are_found_by_their_position():
     assert means == pytest.approx(plan.atlas.positions[cut.corner_vertices], abs=1e-6)
 
 
+def test_a_mesh_whose_faces_times_vertices_exceed_32_bits():
+    positions, *rest = shapes.join(shapes.grid(100, 100))
+    arrays = [np.concatenate([positions, np.zeros((300_000, 3))]), *rest]
+    cut, uvs = Cutter(*arrays).cut(1, 99.5, faces=[9998, 9999]).result()
+    plan = plan_cut(as_blender_stores(arrays), cut, uvs)
+    assert [split.fractions for split in plan.edge_splits] == [[0.5]] * 3
+
+
 def test_directions_have_length_one():
     source, cut, uvs = crossed()
     plan = plan_cut(source, cut, uvs)
