@@ -206,6 +206,37 @@ def test_rectangles_by_clicks():
     bpy.context.scene.atlas_refine.seams = "NONE"
 
 
+def test_rectangles_in_edit_mode_with_custom_normals_and_one_undo():
+    obj = add_mesh(name="Normals")
+    if hasattr(obj.data, "use_auto_smooth"):  # before 4.1
+        obj.data.use_auto_smooth = True
+    obj.data.normals_split_custom_set([(0.6, 0.0, 0.8)] * len(obj.data.loops))
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.ed.undo_push(message="Made a mesh")
+    bpy.context.scene.atlas_refine.seams = "RECTANGLES"
+    tasks().last = None
+    uv_editor().tag_redraw()
+    yield 0.3
+    faces = len(obj.data.polygons)
+    yield from click((BUTTON[0], BUTTON[1] + ROW))
+    yield lambda: tasks().last is not None and not running()
+    yield 0.3
+    obj = bpy.data.objects["Normals"]
+    assert obj.mode == "EDIT"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(obj.data.polygons) > faces
+    obj.data.calc_normals_split()
+    assert all(abs(loop.normal.x - 0.6) < 1e-3 for loop in obj.data.loops)
+    bpy.ops.object.mode_set(mode="EDIT")
+    yield from key("Z", ctrl=True)
+    yield 0.5
+    obj = bpy.data.objects["Normals"]
+    assert obj.mode == "EDIT"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(obj.data.polygons) == faces, "one undo does not take it back"
+    bpy.context.scene.atlas_refine.seams = "NONE"
+
+
 def test_another_file_ends_a_run():
     yield from start(slow_mesh(), pe_bound=0.95)
     yield lambda: running()
