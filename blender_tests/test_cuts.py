@@ -65,6 +65,10 @@ def add_rich_mesh(custom_normals=True):
         polygon.material_index, polygon.use_smooth = polygon.index % 3, polygon.index != 5
     for edge in mesh.edges:
         edge.use_seam, edge.use_edge_sharp = edge.index % 7 == 0, edge.index % 4 == 0
+        if hasattr(edge, "use_freestyle_mark"):
+            edge.use_freestyle_mark = edge.index % 3 == 0
+    for name in ("crease", "bevel_weight"):
+        set_edge_values(mesh, name, random.random(len(mesh.edges)).astype(np.float32))
     if custom_normals:
         add_custom_normals(mesh, random)
     obj.shape_key_add(name="Basis")
@@ -73,6 +77,25 @@ def add_rich_mesh(custom_normals=True):
         moved = random.normal(size=(len(key.data), 3)) + shape(obj, "Basis")
         key.data.foreach_set("co", moved.astype(np.float32).ravel())
     return obj
+
+
+def edge_values(mesh, name):
+    """(the collection, its attribute) that hold creases or bevel weights of edges."""
+    if hasattr(mesh.edges[0], name):  # before 4.0
+        return mesh.edges, name
+    if f"{name}_edge" not in mesh.attributes:
+        mesh.attributes.new(f"{name}_edge", "FLOAT", "EDGE")
+    return mesh.attributes[f"{name}_edge"].data, "value"
+
+
+def set_edge_values(mesh, name, values):
+    collection, attribute = edge_values(mesh, name)
+    collection.foreach_set(attribute, values)
+
+
+def get_edge_values(mesh, name):
+    collection, attribute = edge_values(mesh, name)
+    return column(collection, attribute)[:, 0]
 
 
 def add_custom_normals(mesh, random):
@@ -145,9 +168,11 @@ def data_of(obj):
 
 
 def edge_data(mesh):
-    """(sharp, seam, stress) of each edge by its vertices."""
-    stress = mesh.attributes["stress"].data
-    return {edge.key: (edge.use_edge_sharp, edge.use_seam, stress[edge.index].value) for edge in mesh.edges}
+    """(seam, whatever else it carries) of each edge by its vertices."""
+    stress = column(mesh.attributes["stress"].data, "value")[:, 0]
+    marks = [edge.use_edge_sharp for edge in mesh.edges], [getattr(edge, "use_freestyle_mark", False) for edge in mesh.edges]
+    rows = zip(*marks, stress, get_edge_values(mesh, "crease"), get_edge_values(mesh, "bevel_weight"), strict=True)
+    return {edge.key: (edge.use_seam, row) for edge, row in zip(mesh.edges, rows, strict=True)}
 
 
 def make_plan(obj, lines=LINES):
@@ -239,9 +264,9 @@ class Cuts(unittest.TestCase):
                     parts.update({tuple(sorted(pair)): (split.start, split.end) for pair in itertools.pairwise(chain)})
                 seams = {tuple(sorted(pair)) for pair in plan.new_seams.tolist()}
                 self.assertTrue(seams)
-                for key, (sharp, seam, stress) in edge_data(obj.data).items():
-                    old = before.get(parts.get(key, key), (False, False, 0.0))
-                    self.assertEqual((sharp, seam, stress), (old[0], old[1] or key in seams, old[2]), key)
+                for key, (seam, marks) in edge_data(obj.data).items():
+                    old_seam, old_marks = before.get(parts.get(key, key), (False, (False, False, 0.0, 0.0, 0.0)))
+                    self.assertEqual((seam, marks), (old_seam or key in seams, old_marks), key)
 
     def test_only_crossed_faces_are_divided(self):
         obj = add_rich_mesh()
