@@ -89,6 +89,12 @@ def test_each_verdict_can_fail(changed, count):
     assert sum(line.count("NO") + (": not " in line) for line in lines) == count
 
 
+def test_quality_is_judged_at_one_bound_and_validity_everywhere():
+    other = row(e_d=1.2, bl=5.0, pe=0.5, nets=1, valid=False)
+    other.goal = "0.90 free rect"
+    assert sum(line.count("NO") for line in goal_lines([other])) == 1
+
+
 def test_a_file_without_seams_has_no_growth_of_them():
     assert math.isnan(row(bl_in=0.0, bl=0.0).added_length)
     assert row().added_length == pytest.approx(0.5)
