@@ -88,6 +88,9 @@ class Refinement {
                       .threads = threads_},
         [&](const ReduceProgress& progress) { monitor_.report(1 - 1 / (1 + 0.1 * progress.iteration), progress.pe); });
     outcome_.reduced(reduced);
+    // Charts that no cut was found for and that do not relax from their rectangles are better squeezed.
+    constexpr double kRelaxed = 1.01;
+    if (cut.seams.empty() && !(reduced.reached && reduced.energy <= kRelaxed * enough)) return without_seams(std::move(set));
     for (std::size_t p = 0; p < pieces.size(); ++p) pieces[p].uvs = reduced.uvs[p];
     return outcome_.certified_cut(set, cut, pieces, layout.gap);
   }

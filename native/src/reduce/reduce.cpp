@@ -10,17 +10,20 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kLeastClimb = 0.01;     // log PE gains at most this much in one iteration near the target,
-constexpr double kMostClimb = 0.03;      // and this much far below it
-constexpr double kTargetSlack = 2e-5;    // aim so much above the bound, relative, that rounding cannot lose it
-constexpr double kNearTarget = 1e-3;     // log PE: from here on the barrier softens
-constexpr double kConverged = 2e-4;      // relative change of E_d - 1, twice in a row,
-constexpr double kNegligible = 1e-8;     // or a change of E_d that nobody can measure
-constexpr double kLeastPrice = 1e-3;     // the barrier is never softer than for this price
-constexpr double kMostFall = 0.01;       // from above the target log PE falls at most so much in one iteration,
-constexpr double kPressure = 1;          // the barrier is as firm as for this price per unit of E_d - 1,
-constexpr double kSlow = 0.05;           // and softens once a step gains less than this share of E_d - 1
-constexpr double kFirmness = 0.2;        // stiffness of the barrier per price and range while PE climbs,
+constexpr double kLeastClimb = 0.01;   // log PE gains at most this much in one iteration near the target,
+constexpr double kMostClimb = 0.03;    // and this much far below it
+constexpr double kTargetSlack = 2e-5;  // aim so much above the bound, relative, that rounding cannot lose it
+constexpr double kNearTarget = 1e-3;   // log PE: from here on the barrier softens
+constexpr double kConverged = 2e-4;    // relative change of E_d - 1, twice in a row,
+constexpr double kRelaxed = 2e-3;      // the same for charts that come from above the bound,
+constexpr double kNegligible = 1e-8;   // or a change of E_d that nobody can measure
+constexpr double kLeastPrice = 1e-3;   // the barrier is never softer than for this price
+constexpr double kMostFall = 0.01;  // log PE falls slowly from above the target: so much in one iteration, unless that is dear,
+constexpr double kPressure = 1;     // the barrier is as firm as for this price per unit of E_d - 1,
+constexpr double kDearest = 8;      // or for a price up to so much more,
+constexpr double kMostRise = 4;     // E_d - 1 beyond so much of the start's: the charts are wedged
+constexpr double kSlow = 0.05;      // and softens once a step gains less than this share of E_d - 1
+constexpr double kFirmness = 0.2;   // stiffness of the barrier per price and range while PE climbs,
 constexpr double kSoftFirmness = 0.005;  // and at the end, when charts may come as near as the gap allows
 constexpr double kSoftening = 0.5;       // from one to the other, a step per iteration on the target
 constexpr double kOpenFirmness = 2;      // without a box: far from the optimum, a soft barrier grinds
@@ -40,11 +43,13 @@ class Reduction {
   Reduction(const ReduceProblem& problem, const ReduceMonitor& monitor)
       : problem_(problem), monitor_(monitor), system_(problem), state_(system_.start()) {
     energy_ = system_.distortion(state_.x);
+    first_energy_ = energy_;
     best_ = state_;
     firmness_ = bounded() ? kFirmness : kOpenFirmness;
     update_pe();
     relaxing_ = bounded() && pe_ > problem_.pe_target;
     stiffness_ = firmness_ * least_price() * system_.range();
+    if (relaxing_) stiffness_ *= system_.least_slack(state_);
   }
 
   ReduceResult run() {
@@ -86,7 +91,7 @@ class Reduction {
       status = ReduceStatus::TooDistorted;
     else if (!holds_bound() && problem_.max_price > 0 && expensive_ >= 3)
       status = ReduceStatus::TooExpensive;
-    else if (idle_ >= kStallIterations)
+    else if (idle_ >= kStallIterations || (relaxing_ && energy_ - 1 > kMostRise * (first_energy_ - 1)))
       status = ReduceStatus::Stalled;
     else
       return false;
@@ -113,9 +118,9 @@ class Reduction {
     system_.matrix.solve(climb);
     // Too distorted: hold the PE and relax before climbing on.
     const double climb_limit = within_distortion() ? std::clamp(0.2 * deficit(), kLeastClimb, kMostClimb) : 0;
-    const double gain = std::clamp(deficit(), -kMostFall, climb_limit);
-    const double wanted = gain - dot(system_.pe_gradient, step_);
-    price_ = std::max(0.0, wanted / dot(system_.pe_gradient, climb));
+    const double own_gain = dot(system_.pe_gradient, step_), gain_per_price = dot(system_.pe_gradient, climb);
+    price_ = std::max(0.0, (std::min(deficit(), climb_limit) - own_gain) / gain_per_price);
+    if (relaxing_) price_ = std::max(price_, std::min(kDearest * least_price(), (-kMostFall - own_gain) / gain_per_price));
     for (std::size_t i = 0; i < step_.size(); ++i) step_[i] += price_ * climb[i];
     return true;
   }
@@ -159,7 +164,9 @@ class Reduction {
     else if (fraction_ < 0.1)
       damping_ = std::min(kMostDamping, 4 * damping_);
     if (bounded() && (relaxing_ ? slow_ : deficit() < kNearTarget)) firmness_ = std::max(kSoftFirmness, kSoftening * firmness_);
-    const double wanted = firmness_ * std::max(price_, least_price()) * system_.range();
+    // A relaxing barrier that followed a price of its own making would freeze.
+    const double price = relaxing_ ? std::min(price_, kDearest * least_price()) : price_;
+    const double wanted = firmness_ * std::max(price, least_price()) * system_.range();
     stiffness_ = std::clamp(wanted, 0.5 * stiffness_, 2 * stiffness_);
   }
 
@@ -171,7 +178,8 @@ class Reduction {
 
   void count_progress(double energy_before, double pe_before) {
     const bool on_target = !bounded() || (std::abs(deficit()) < 1e-4 || (holds_bound() && price_ == 0));
-    const bool quiet = std::abs(energy_ - energy_before) < kConverged * (energy_ - 1) + kNegligible && fraction_ > 0.1;
+    const double converged = relaxing_ ? kRelaxed : kConverged;
+    const bool quiet = std::abs(energy_ - energy_before) < converged * (energy_ - 1) + kNegligible && fraction_ > 0.1;
     calm_ = on_target && quiet && settled() ? calm_ + 1 : 0;
     expensive_ = price_ > problem_.max_price ? expensive_ + 1 : 0;
     distorted_ = !within_distortion() && quiet ? distorted_ + 1 : 0;
@@ -210,7 +218,7 @@ class Reduction {
   ReduceSystem system_;
   ReduceState state_, best_;
   std::vector<Vec2> step_;
-  double energy_ = 0, pe_ = 0, price_ = 0, fraction_ = 1;
+  double first_energy_ = 0, energy_ = 0, pe_ = 0, price_ = 0, fraction_ = 1;
   double firmness_ = 0, stiffness_ = 0, damping_ = 1e-3;
   double best_energy_ = std::numeric_limits<double>::infinity(), best_pe_ = -1, best_price_ = 0;
   bool best_holds_ = false, relaxing_ = false, slow_ = false;

@@ -177,6 +177,17 @@ double ReduceSystem::barrier(const ReduceState& state, const std::vector<Contact
   return sum;
 }
 
+double ReduceSystem::least_slack(const ReduceState& state) const {
+  double least = 1;
+  for (const Contact& contact : contacts(state, {})) {
+    const Closest closest =
+        closest_on_segment(state.x[boundary_.vertex[contact.pair.point]], state.x[boundary_.vertex[contact.pair.edge]],
+                           state.x[boundary_.vertex[boundary_.next[contact.pair.edge]]]);
+    least = std::min(least, (closest.distance - contact.floor_fraction * gap_unit(state.box)) / contact.range);
+  }
+  return least;
+}
+
 double ReduceSystem::free_step(const ReduceState& state, const std::vector<Vec2>& step) const {
   double longest = 0;
   for (int v = 0; v < vertex_count(); ++v) longest = std::max(longest, step[v].norm());

@@ -39,6 +39,8 @@ class ReduceSystem {
   /// Pairs that can come into the barrier's reach while `state` moves along `step` (may be empty).
   std::vector<Contact> contacts(const ReduceState& state, const std::vector<Vec2>& step) const;
   double barrier(const ReduceState& state, const std::vector<Contact>& contacts) const;
+  /// Smallest distance beyond its floor of any contact, as a fraction of its range; at most 1.
+  double least_slack(const ReduceState& state) const;
 
   /// Gradients of E + stiffness * barrier and of log PE, and the projected Hessian of the former in `matrix`.
   /// Node vertex_count() is the box where there is one.
