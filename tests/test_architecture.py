@@ -9,7 +9,7 @@ NATIVE = pathlib.Path(__file__).resolve().parents[1] / "native"
 SOURCE = NATIVE / "src"
 
 # Each level may include itself, what stands before it, and the public headers.
-LEVELS = [["support"], ["geometry"], ["solve"], ["measure"], ["input", "pack", "align", "layout", "cut", "reduce"], ["report"], ["refine.cpp"]]
+LEVELS = [["support"], ["geometry"], ["solve"], ["measure"], ["input", "pack", "align", "layout", "cut", "reduce"], ["report"], ["rectangles.h", "rectangles.cpp"], ["refine.cpp"]]
 # Libraries that live in one place and nowhere else.
 HOMES = {
     "OpenMesh": ["src/geometry/"],

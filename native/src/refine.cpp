@@ -1,16 +1,11 @@
-// The whole method, top to bottom: charts, the least intervention that holds the bound, the certificate.
+// The whole method, top to bottom: charts, the road that cuts or the least intervention that holds the bound, the certificate.
 #include "atlas_refine/refine.h"
 
-#include <algorithm>
-
-#include "align/align.h"
-#include "cut/cut_charts.h"
 #include "input/split_charts.h"
-#include "layout/place_pieces.h"
-#include "layout/search_layout.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "pack/place_charts.h"
+#include "rectangles.h"
 #include "reduce/density.h"
 #include "reduce/re_embed.h"
 #include "reduce/reference.h"
@@ -42,61 +37,22 @@ class Refinement {
     outcome_.measure_input(set);
     if (holds_already(set)) return outcome_.unchanged(gap_);
     set_reference(set.charts, options_.reference, options_.importance);
-    return options_.seams == Seams::Rectangles ? cut_into_rectangles(std::move(set)) : without_seams(std::move(set));
+    if (options_.seams == Seams::Rectangles) {
+      if (auto cut = cut_into_rectangles(atlas_, set, options_, outcome_, monitor_)) return std::move(*cut);
+    }
+    return without_seams(std::move(set));
   }
 
  private:
   /// The least intervention that holds the bound: charts are moved, or squeezed.
   RefineResult without_seams(ChartSet set) {
-    const bool own_layout = !embed_where_needed(set, [&](int c) { return certify_charts({set.charts[c]}).valid(); }) &&
-                            certify_charts(set.charts).valid();
+    const bool own_layout = !embed_where_needed(set) && certify_charts(set.charts).valid();
     charts_ = std::move(set.charts);
     outcome_.begin_stage("pack", 0.2, 0.4);
     const bool scaled = set_density(charts_, options_.density);
     const std::vector<Chart> placed = place_anew();
     if (holds_placed(placed)) return outcome_.certified(Intervention::Moved, placed, gap_);
     return squeezed(own_layout && !scaled, placed);
-  }
-
-  /// The paper: axis-aligned charts (3.1), cut and packed as rectangles (3.2), distortion reduced under the bound (3.3).
-  RefineResult cut_into_rectangles(ChartSet set) {
-    embed_where_needed(set, [&](int c) { return !has_defect(set, c); });
-    const double input_distortion = dirichlet_sums(set.charts).best_energy();
-    charts_ = set.charts;
-    set_density(charts_, options_.density);
-
-    outcome_.begin_stage("align", 0.05, 0.35);
-    const auto aligned = align_charts(charts_, {options_.rectangles.sigma, threads_}, monitor_);
-    outcome_.aligned(aligned);
-    outcome_.begin_stage("layout", 0.35, 0.45);
-    const Layout layout = search_layout(aligned, charts_, layout_options(options_, threads_), monitor_);
-    const CutCharts cut = cut_charts(aligned, charts_, layout.trails, space_points(atlas_, set));
-    std::vector<Chart> pieces = place_pieces(layout, meshes_of(cut), charts_of(cut));
-    outcome_.laid_out(layout);
-    outcome_.show("packed", pieces);
-
-    outcome_.begin_stage("reduce", 0.45, 0.95);
-    const bool to_the_end = options_.rectangles.until_bound || options_.reference == Reference::Input;
-    const double enough = options_.density == Density::Keep ? dirichlet_sums(charts_).best_energy() : input_distortion;
-    const ReduceResult reduced = reduce_distortion(
-        ReduceProblem{.charts = pieces,
-                      .gap = layout.gap,
-                      .box_aspect = options_.box_aspect,
-                      .pe_target = options_.pe_bound,
-                      .enough_distortion = to_the_end ? 0 : enough,
-                      .max_distortion = options_.max_distortion.value_or(0),
-                      .threads = threads_},
-        [&](const ReduceProgress& progress) { monitor_.report(1 - 1 / (1 + 0.1 * progress.iteration), progress.pe); });
-    outcome_.reduced(reduced);
-    // Charts that no cut was found for and that do not relax from their rectangles are better squeezed.
-    constexpr double kRelaxed = 1.01;
-    if (cut.seams.empty() && !(reduced.reached && reduced.energy <= kRelaxed * enough)) return without_seams(std::move(set));
-    for (std::size_t p = 0; p < pieces.size(); ++p) pieces[p].uvs = reduced.uvs[p];
-    return outcome_.certified_cut(set, cut, pieces, layout.gap);
-  }
-
-  static bool has_defect(const ChartSet& set, int chart) {
-    return std::any_of(set.defects.begin(), set.defects.end(), [&](const FaceDefect& d) { return d.chart == chart; });
   }
 
   bool gap_kept(const std::vector<Chart>& charts, double factor) const {
@@ -115,15 +71,13 @@ class Refinement {
            (!options_.gap || gap_kept(set.charts, 1));
   }
 
-  /// Charts that are not usable, because they overlap themselves or hold polygons that do, are embedded anew; true where there
-  /// was one.
-  template <class Usable>
-  bool embed_where_needed(ChartSet& set, const Usable& usable) {
+  /// Charts that overlap themselves, or hold polygons that do, are embedded anew; true where there was one.
+  bool embed_where_needed(ChartSet& set) {
     outcome_.begin_stage("embed", 0.02, 0.2);
     bool any = false;
     for (int c = 0; c < static_cast<int>(set.charts.size()); ++c) {
       monitor_.report(static_cast<double>(c) / set.charts.size());
-      if (usable(c)) continue;
+      if (certify_charts({set.charts[c]}).valid()) continue;
       set.charts[c] = re_embed(set.charts[c], c, threads_, monitor_);
       outcome_.re_embedded(c);
       any = true;

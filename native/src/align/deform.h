@@ -21,11 +21,12 @@ struct AlignedShape {
 };
 
 /// UVs without flips whose boundary edges are parallel to the axes to the last bit and run in the asked directions; nothing where
-/// the deformation does not get there. Where an edge beside a corner would shrink to nothing, the corner moves past it. The chart must be free of flips, and have no triangle with two boundary edges and no inner
-/// edge between two boundary vertices. `poll` is called before every iteration and may throw.
-/// Differs from Algorithm 1: projected Newton instead of L-BFGS, the length term keeps a small fixed weight (growing with lambda
-/// it fights the angle term), and the flattening is the limit of a growing quadratic penalty on what edges deviate from their
-/// axis: the same optimum as one unknown per segment, on the mesh's own sparsity.
+/// the deformation does not get there. Where an edge beside a corner would shrink to nothing, the corner moves past it. The chart
+/// must be free of flips, and have no triangle with two boundary edges and no inner edge between two boundary vertices. `poll` is
+/// called before every iteration and may throw. Differs from Algorithm 1: projected Newton instead of L-BFGS, the length term
+/// keeps a small fixed weight (growing with lambda it fights the angle term), and the flattening is the limit of a growing
+/// quadratic penalty on what edges deviate from their axis: the same optimum as one unknown per segment, on the mesh's own
+/// sparsity.
 std::optional<AlignedShape> deform_to_axes(const Chart& chart, const AlignTarget& target, const std::function<void()>& poll);
 
 /// The smallest deformation that makes every boundary edge axis-parallel: all vertices of a segment take its mean coordinate.

@@ -14,13 +14,13 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kSlack = 1.002;        // layouts are to hold so much more than the bound: stage 3 starts from them
-constexpr double kMoreThanGap = 1.2;    // kept beyond the gap: stage 3 starts with a little freedom
-constexpr double kLongestSides = 20;    // aspect of a rectangle; longer ones are long and narrow
-constexpr int kChains = 8;              // independent searches, so that threads do not change the result
-constexpr double kHot = 0.01;           // accepted loss of score at the start of a chain
-constexpr int kFinalists = 4;           // layouts whose packing is annealed
-constexpr int kAnnealing = 60000;       // position evaluations per finalist, shared by its rectangles
+constexpr double kSlack = 1.002;      // layouts are to hold so much more than the bound: stage 3 starts from them
+constexpr double kMoreThanGap = 1.2;  // kept beyond the gap: stage 3 starts with a little freedom
+constexpr double kLongestSides = 20;  // aspect of a rectangle; longer ones are long and narrow
+constexpr int kChains = 8;            // independent searches, so that threads do not change the result
+constexpr double kHot = 0.01;         // accepted loss of score at the start of a chain
+constexpr int kFinalists = 4;         // layouts whose packing is annealed
+constexpr int kAnnealing = 60000;     // position evaluations per finalist, shared by its rectangles
 constexpr int kExtraCorners[] = {4, 12, 32};
 
 /// What a layout is judged by.

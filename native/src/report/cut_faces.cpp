@@ -39,8 +39,7 @@ class FaceBuilder {
   FaceBuilder(const Atlas& atlas, const ChartSet& set, const CutCharts& cut) : atlas_(atlas), set_(set), cut_(cut) {
     out_.positions = atlas.positions;
     out_.mesh.face_offsets = {0};
-    out_.mesh.new_vertices.resize(cut.points.size());
-    out_.positions.resize(atlas.positions.size() + cut.points.size());
+    number_points();
     parts_.resize(atlas.face_count());
     for (int p = 0; p < static_cast<int>(cut.pieces.size()); ++p) {
       const Chart& mesh = cut.pieces[p].mesh;
@@ -67,9 +66,7 @@ class FaceBuilder {
       }
     }
     for (const CutCharts::Seam& seam : cut_.seams) {
-      const auto vertex = [&](int end) {
-        return end < 0 ? static_cast<int>(atlas_.positions.size()) + ~end : vertex_of_chart_[{seam.chart, end}];
-      };
+      const auto vertex = [&](int end) { return end < 0 ? vertex_of_point(~end) : vertex_of_chart_[{seam.chart, end}]; };
       out_.mesh.new_seams.push_back({vertex(seam.ends[0]), vertex(seam.ends[1])});
     }
     return std::move(out_);
@@ -84,6 +81,21 @@ class FaceBuilder {
     return -1;
   }
 
+  /// Points that no piece uses any more get no vertex.
+  void number_points() {
+    index_.assign(cut_.points.size(), -1);
+    int count = 0;
+    for (const CutPiece& piece : cut_.pieces) {
+      for (int point : piece.points) {
+        if (point >= 0 && index_[point] < 0) index_[point] = count++;
+      }
+    }
+    out_.mesh.new_vertices.resize(count);
+    out_.positions.resize(atlas_.positions.size() + count);
+    located_.assign(count, 0);
+  }
+  int vertex_of_point(int point) const { return static_cast<int>(atlas_.positions.size()) + index_[point]; }
+
   /// New points get their corners and positions from the first face that has them.
   void locate_points(int face) {
     for (const FacePart& part : parts_[face]) {
@@ -96,9 +108,9 @@ class FaceBuilder {
     }
   }
   void locate_point(int face, int point) {
-    NewVertex& vertex = out_.mesh.new_vertices[point];
-    if (located_.size() <= static_cast<std::size_t>(point)) located_.resize(cut_.points.size(), 0);
-    if (located_[point]) return;
+    const int index = index_[point];
+    NewVertex& vertex = out_.mesh.new_vertices[index];
+    if (located_[index]) return;
     const Support& support = cut_.points[point].support;
     vertex.weights = Vec3::Zero();
     Vec3 position = Vec3::Zero();
@@ -112,8 +124,8 @@ class FaceBuilder {
     for (int c = atlas_.face_offsets[face]; vertex.corners[2] < 0; ++c) {
       if (c != vertex.corners[0] && c != vertex.corners[1]) vertex.corners[2] = c;
     }
-    located_[point] = 1;
-    out_.positions[atlas_.positions.size() + point] = position;
+    located_[index] = 1;
+    out_.positions[vertex_of_point(point)] = position;
   }
 
   /// True where the chart has the face wound against the input.
@@ -150,8 +162,7 @@ class FaceBuilder {
     std::rotate(corners.begin(), corners.begin() + start, corners.end());
     for (std::size_t k = 0; k < outline.size(); ++k) {
       const int v = outline[k];
-      const int vertex =
-          corners[k] >= 0 ? atlas_.corner_vertices[corners[k]] : static_cast<int>(atlas_.positions.size()) + p.points[v];
+      const int vertex = corners[k] >= 0 ? atlas_.corner_vertices[corners[k]] : vertex_of_point(p.points[v]);
       if (corners[k] >= 0) vertex_of_chart_[{p.chart, p.vertices[v]}] = vertex;
       out_.mesh.corner_vertices.push_back(vertex);
       out_.corners.push_back({piece, v});
@@ -165,6 +176,7 @@ class FaceBuilder {
   const CutCharts& cut_;
   CutFaces out_;
   std::vector<std::vector<FacePart>> parts_;
+  std::vector<int> index_;  // of each point among the new vertices
   std::vector<char> located_;
   std::map<std::pair<int, int>, int> vertex_of_chart_;  // (chart, vertex) -> input vertex
 };

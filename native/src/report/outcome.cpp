@@ -157,8 +157,9 @@ RefineResult Outcome::certified(Intervention intervention, const std::vector<Cha
   return certify(intervention, std::move(output), gap);
 }
 
-RefineResult Outcome::certified_cut(const ChartSet& set, const CutCharts& cut, const std::vector<Chart>& pieces, const Gap& gap) {
+RefineResult Outcome::certified_cut(const ChartSet& set, const CutCharts& cut, const Gap& gap) {
   begin_stage("certify", 0.95, 1);
+  const std::vector<Chart> pieces = meshes_of(cut);
   CutFaces faces = cut_faces(atlas_, set, cut);
   Output output{atlas_, std::move(faces.corners), pieces, pieces, {}};
   output.atlas.positions = std::move(faces.positions);

@@ -34,8 +34,8 @@ class Outcome {
   /// The charts' UVs, scaled into the unit square and rounded as they will be stored, after the exact certificate on just those
   /// values. Throws BoundNotReached (unless best effort) or NotCertified.
   RefineResult certified(Intervention intervention, const std::vector<Chart>& charts, const Gap& gap);
-  /// The same for charts that were cut: `pieces` are those of `cut` where they have ended up.
-  RefineResult certified_cut(const ChartSet& set, const CutCharts& cut, const std::vector<Chart>& pieces, const Gap& gap);
+  /// The same for charts that were cut; the pieces' UVs are where they have ended up.
+  RefineResult certified_cut(const ChartSet& set, const CutCharts& cut, const Gap& gap);
 
  private:
   /// An atlas to be certified: `charts` as they are to be stored, and with the input's UVs.

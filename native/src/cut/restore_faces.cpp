@@ -1,0 +1,162 @@
+// The reverse of dividing an edge, one vertex at a time.
+#include "cut/restore_faces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/predicates.h"
+#include "solve/symmetric_dirichlet.h"
+
+namespace atlas_refine {
+namespace {
+
+constexpr double kMostDistorted = 3;  // energy up to which a restored triangle is accepted
+
+/// True where v lies between a and b on the chart.
+bool lies_between(const Support& v, const Support& a, const Support& b) {
+  for (int k = 0; k < 3; ++k) {
+    if (v.vertices[k] < 0) continue;
+    // The share of b, from a vertex of the chart where a and b differ.
+    const auto weight = [&](const Support& s) {
+      for (int j = 0; j < 3; ++j) {
+        if (s.vertices[j] == v.vertices[k]) return s.weights[j];
+      }
+      return 0.0;
+    };
+    const double from = weight(a), to = weight(b);
+    if (from == to) continue;
+    const double along = (weight(v) - from) / (to - from);
+    if (!(along > 0 && along < 1)) return false;
+    const Support there = between(a, b, along);
+    constexpr double kSame = 1e-9;
+    for (int j = 0; j < 3; ++j) {
+      if (there.vertices[j] != v.vertices[j] || std::abs(there.weights[j] - v.weights[j]) > kSame) return false;
+    }
+    return true;
+  }
+  return false;
+}
+
+class Restorer {
+ public:
+  Restorer(CutPiece& piece, const Chart& source, double scale)
+      : piece_(piece), source_(source), scale_(scale), around_(piece.mesh.vertex_count()) {
+    for (int t = 0; t < static_cast<int>(piece.mesh.triangles.size()); ++t) {
+      for (int v : piece.mesh.triangles[t]) around_[v].push_back(t);
+    }
+  }
+
+  int run() {
+    std::vector<char> outer(piece_.mesh.vertex_count(), 0);
+    for (const auto& loop : piece_.mesh.boundary_loops) {
+      for (int v : loop) outer[v] = 1;
+    }
+    int removed = 0;
+    // The last vertex made is the first to go.
+    for (int v = piece_.mesh.vertex_count() - 1; v >= 0; --v) {
+      if (piece_.points[v] >= 0 && !outer[v] && remove(v)) ++removed;
+    }
+    if (removed > 0) compact();
+    return removed;
+  }
+
+ private:
+  /// The four triangles around the vertex as two, where it divides an edge.
+  bool remove(int v) {
+    if (around_[v].size() != 4) return false;
+    std::array<int, 4> ring{}, fan{};
+    int next = -1;
+    for (int k = 0; k < 4; ++k) {
+      const auto found = std::find_if(around_[v].begin(), around_[v].end(), [&](int t) { return k == 0 || after(t, v) == next; });
+      if (found == around_[v].end()) return false;
+      fan[k] = *found;
+      ring[k] = after(*found, v);
+      next = after(*found, ring[k]);
+    }
+    for (int k = 0; k < 2; ++k) {
+      if (!lies_between(piece_.supports[v], piece_.supports[ring[k]], piece_.supports[ring[(k + 2) % 4]])) continue;
+      // ring[k], [k + 1], [k + 2] on one side of the edge, [k + 2], [k + 3], [k] on the other.
+      return join(v, ring[k], ring[k + 1], ring[k + 2], {fan[k], fan[k + 1]}, ring[(k + 3) % 4], {fan[k + 2], fan[(k + 3) % 4]});
+    }
+    return false;
+  }
+
+  bool join(int v, int a, int c, int b, std::array<int, 2> one, int d, std::array<int, 2> other) {
+    if (piece_.sources[one[0]] != piece_.sources[one[1]] || piece_.sources[other[0]] != piece_.sources[other[1]]) return false;
+    const Triangle first = {a, c, b}, second = {b, d, a};
+    RestTriangle first_rest, second_rest;
+    if (!good(first, one, first_rest) || !good(second, other, second_rest)) return false;
+    set(one[0], first, first_rest);
+    set(other[0], second, second_rest);
+    for (int gone : {one[1], other[1]}) {
+      for (int w : piece_.mesh.triangles[gone]) std::erase(around_[w], gone);
+      piece_.mesh.triangles[gone] = {-1, -1, -1};
+    }
+    around_[v].clear();
+    return true;
+  }
+
+  bool good(const Triangle& t, std::array<int, 2> parts, RestTriangle& rest) const {
+    const auto& uvs = piece_.mesh.uvs;
+    if (orientation(uvs[t[0]], uvs[t[1]], uvs[t[2]]) <= 0) return false;
+    rest = rest_of_part(source_, piece_.sources[parts[0]], {piece_.supports[t[0]], piece_.supports[t[1]], piece_.supports[t[2]]});
+    return symmetric_dirichlet(scale_ * jacobian(rest, uvs[t[0]], uvs[t[1]], uvs[t[2]])) < kMostDistorted;
+  }
+
+  int after(int t, int v) const {
+    const Triangle& triangle = piece_.mesh.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      if (triangle[k] == v) return triangle[(k + 1) % 3];
+    }
+    return -1;
+  }
+  void set(int t, const Triangle& triangle, const RestTriangle& rest) {
+    for (int w : piece_.mesh.triangles[t]) std::erase(around_[w], t);
+    piece_.mesh.triangles[t] = triangle;
+    piece_.mesh.rest[t] = rest;
+    for (int w : triangle) around_[w].push_back(t);
+  }
+
+  void compact() {
+    std::vector<int> number(piece_.mesh.vertex_count(), -1);
+    int kept = 0;
+    for (int v = 0; v < piece_.mesh.vertex_count(); ++v) {
+      if (around_[v].empty()) continue;
+      number[v] = kept;
+      piece_.mesh.uvs[kept] = piece_.mesh.uvs[v];
+      piece_.vertices[kept] = piece_.vertices[v];
+      piece_.points[kept] = piece_.points[v];
+      piece_.supports[kept++] = piece_.supports[v];
+    }
+    piece_.mesh.uvs.resize(kept);
+    piece_.vertices.resize(kept);
+    piece_.points.resize(kept);
+    piece_.supports.resize(kept);
+    int triangles = 0;
+    for (std::size_t t = 0; t < piece_.mesh.triangles.size(); ++t) {
+      if (piece_.mesh.triangles[t][0] < 0) continue;
+      for (int k = 0; k < 3; ++k) piece_.mesh.triangles[triangles][k] = number[piece_.mesh.triangles[t][k]];
+      piece_.mesh.rest[triangles] = piece_.mesh.rest[t];
+      piece_.mesh.triangle_faces[triangles] = piece_.mesh.triangle_faces[t];
+      piece_.sources[triangles++] = piece_.sources[t];
+    }
+    piece_.mesh.triangles.resize(triangles);
+    piece_.mesh.rest.resize(triangles);
+    piece_.mesh.triangle_faces.resize(triangles);
+    piece_.sources.resize(triangles);
+    for (auto& loop : piece_.mesh.boundary_loops) {
+      for (int& v : loop) v = number[v];
+    }
+  }
+
+  CutPiece& piece_;
+  const Chart& source_;
+  double scale_;
+  std::vector<std::vector<int>> around_;
+};
+
+}  // namespace
+
+int restore_faces(CutPiece& piece, const Chart& source, double scale) { return Restorer(piece, source, scale).run(); }
+
+}  // namespace atlas_refine

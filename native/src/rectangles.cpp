@@ -1,0 +1,116 @@
+// The three steps of the paper, one after the other.
+#include "rectangles.h"
+
+#include "align/align.h"
+#include "cut/cut_charts.h"
+#include "cut/restore_faces.h"
+#include "layout/place_pieces.h"
+#include "layout/search_layout.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+#include "reduce/density.h"
+#include "reduce/re_embed.h"
+#include "report/options.h"
+#include "support/parallel.h"
+
+namespace atlas_refine {
+namespace {
+
+// Charts that stay so much above the input's E_d have not relaxed.
+constexpr double kRelaxed = 1.01;
+// Until faces are restored pieces are kept so much further apart than the gap, which leaves room for the last steps.
+constexpr double kFirstGap = 1.02;
+
+class RectangleRoad {
+ public:
+  RectangleRoad(const Atlas& atlas, ChartSet set, const RefineOptions& options, Outcome& outcome, Monitor& monitor)
+      : atlas_(atlas),
+        set_(std::move(set)),
+        options_(options),
+        outcome_(outcome),
+        monitor_(monitor),
+        threads_(resolve_threads(options.threads)) {}
+
+  std::optional<RefineResult> run() {
+    embed_broken_polygons();
+    charts_ = set_.charts;
+    enough_ = dirichlet_sums(charts_).best_energy();
+    set_density(charts_, options_.density);
+    if (options_.density == Density::Keep) enough_ = dirichlet_sums(charts_).best_energy();
+
+    outcome_.begin_stage("align", 0.05, 0.35);  // section 3.1
+    const auto aligned = align_charts(charts_, {options_.rectangles.sigma, threads_}, monitor_);
+    outcome_.aligned(aligned);
+
+    outcome_.begin_stage("layout", 0.35, 0.45);  // section 3.2
+    const Layout layout = search_layout(aligned, charts_, layout_options(options_, threads_), monitor_);
+    outcome_.laid_out(layout);
+    CutCharts cut = cut_charts(aligned, charts_, layout.trails, space_points(atlas_, set_));
+    const std::vector<Chart> packed = place_pieces(layout, meshes_of(cut), charts_of(cut));
+    for (std::size_t p = 0; p < packed.size(); ++p) cut.pieces[p].mesh.uvs = packed[p].uvs;
+    outcome_.show("packed", packed);
+
+    outcome_.begin_stage("reduce", 0.45, 0.95);  // section 3.3
+    Gap wide = layout.gap;
+    wide.value *= kFirstGap;
+    const ReduceResult reduced = reduce(cut, wide);
+    if (cut.seams.empty() && !(reduced.reached && reduced.energy <= kRelaxed * enough_)) return std::nullopt;
+    if (restore(cut) > 0) reduce(cut, layout.gap);
+    return outcome_.certified_cut(set_, cut, layout.gap);
+  }
+
+ private:
+  /// Charts may overlap themselves here, but every triangle must be positive.
+  void embed_broken_polygons() {
+    outcome_.begin_stage("embed", 0.02, 0.05);
+    for (const FaceDefect& defect : set_.defects) {
+      if (certify_charts({set_.charts[defect.chart]}).flipped_faces == 0) continue;  // mended with another of its faces
+      set_.charts[defect.chart] = re_embed(set_.charts[defect.chart], defect.chart, threads_, monitor_);
+      outcome_.re_embedded(defect.chart);
+    }
+  }
+
+  /// Moves the pieces to less distortion under the bound.
+  ReduceResult reduce(CutCharts& cut, const Gap& gap) {
+    const std::vector<Chart> pieces = meshes_of(cut);
+    const bool to_the_end = options_.rectangles.until_bound || options_.reference == Reference::Input;
+    const ReduceProblem problem{.charts = pieces,
+                                .gap = gap,
+                                .box_aspect = options_.box_aspect,
+                                .pe_target = options_.pe_bound,
+                                .enough_distortion = to_the_end ? 0 : enough_,
+                                .max_distortion = options_.max_distortion.value_or(0),
+                                .threads = threads_};
+    ReduceResult reduced = reduce_distortion(
+        problem, [&](const ReduceProgress& progress) { monitor_.report(1 - 1 / (1 + 0.1 * progress.iteration), progress.pe); });
+    outcome_.reduced(reduced);
+    for (std::size_t p = 0; p < cut.pieces.size(); ++p) cut.pieces[p].mesh.uvs = reduced.uvs[p];
+    return reduced;
+  }
+
+  /// Takes out the vertices that only served the deformation; returns how many.
+  int restore(CutCharts& cut) const {
+    const double scale = dirichlet_sums(meshes_of(cut)).best_scale();
+    int removed = 0;
+    for (CutPiece& piece : cut.pieces) removed += restore_faces(piece, charts_[piece.chart], scale);
+    return removed;
+  }
+
+  const Atlas& atlas_;
+  ChartSet set_;
+  const RefineOptions& options_;
+  Outcome& outcome_;
+  Monitor& monitor_;
+  int threads_;
+  std::vector<Chart> charts_;
+  double enough_ = 1;  // E_d at which the reduction may stop
+};
+
+}  // namespace
+
+std::optional<RefineResult> cut_into_rectangles(const Atlas& atlas, ChartSet set, const RefineOptions& options, Outcome& outcome,
+                                                Monitor& monitor) {
+  return RectangleRoad(atlas, std::move(set), options, outcome, monitor).run();
+}
+
+}  // namespace atlas_refine
