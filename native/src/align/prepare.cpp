@@ -8,7 +8,7 @@ namespace atlas_refine {
 namespace {
 
 // Boundary edges are divided until they are at most this fraction of the boundary long: corners can only lie at vertices.
-constexpr double kLongestEdge = 0.02;
+constexpr double kLongestEdge = 0.08;
 
 /// The shortest edge path from one boundary loop (not the first) to any other: as sides, from its one end to the other.
 std::vector<Side> path_between_loops(const SplitMesh& mesh, const std::vector<std::vector<int>>& loops) {
