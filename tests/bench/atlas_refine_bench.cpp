@@ -99,7 +99,7 @@ Eigen::SparseMatrix<double> hessian(const std::vector<Chart>& charts, Eigen::Vec
   std::vector<Eigen::Triplet<double>> triplets;
   int first = 0;
   for (const Chart& chart : charts) first += chart.vertex_count();
-  gradient = Eigen::VectorXd::Zero(2 * first);
+  gradient = Eigen::VectorXd::Zero(Eigen::Index{2} * first);
   first = 0;
   const auto add = [&](int i, int j, const Mat2& block) {
     for (int row = 0; row < 2; ++row) {
@@ -114,7 +114,7 @@ Eigen::SparseMatrix<double> hessian(const std::vector<Chart>& charts, Eigen::Vec
           symmetric_dirichlet_derivatives(chart.rest[t], chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]]);
       for (int k = 0; k < 3; ++k) {
         const int i = first + v[k], j = first + v[(k + 1) % 3];
-        gradient.segment<2>(2 * i) += weight * d.gradient[k];
+        gradient.segment<2>(Eigen::Index{2} * i) += weight * d.gradient[k];
         add(i, i, weight * (d.diagonal[k] + kDamping / 3 * Mat2::Identity()));
         add(i, j, weight * d.off_diagonal[k]);
         add(j, i, weight * d.off_diagonal[k].transpose());
@@ -122,7 +122,7 @@ Eigen::SparseMatrix<double> hessian(const std::vector<Chart>& charts, Eigen::Vec
     }
     first += chart.vertex_count();
   }
-  Eigen::SparseMatrix<double> matrix(2 * first, 2 * first);
+  Eigen::SparseMatrix<double> matrix(Eigen::Index{2} * first, Eigen::Index{2} * first);
   matrix.setFromTriplets(triplets.begin(), triplets.end());
   return matrix;
 }

@@ -163,6 +163,27 @@ def test_cut_is_told(program, tmp_path):
     assert after["boundary_length"] >= before["boundary_length"]
 
 
+@pytest.mark.parametrize("seams", ["none", "rectangles"])
+def test_importance_is_read(program, tmp_path, seams):
+    """A weight of 1 for all changes nothing; more for one half of the faces does."""
+    options = ["--seams", seams, "--pe-bound", "0.9"]
+    weights = tmp_path / "weights.txt"
+    results = {}
+    for name, values in {"without": None, "ones": [1] * 144, "half": [100] * 72 + [1] * 72}.items():
+        if values:
+            weights.write_text("\n".join(map(str, values)))
+        more = ["--importance", weights] if values else []
+        results[name] = refine(program, tmp_path, arc(12), *options, *more)[0]
+    assert results["without"] == results["ones"] != results["half"]
+
+
+def test_reference_is_read(program, tmp_path):
+    text = arc(12).replace("vt 0.5 0.0", "vt 0.45 -0.02")
+    surface, _ = refine(program, tmp_path, text, "--pe-bound", "0.9")
+    own, _ = refine(program, tmp_path, text, "--pe-bound", "0.9", "--reference", "input")
+    assert surface != own
+
+
 def test_measure_prints_a_table_and_changes_nothing(program, tmp_path):
     path = tmp_path / "in.obj"
     path.write_text(grid(4, 30))
