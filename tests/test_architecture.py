@@ -9,7 +9,17 @@ NATIVE = pathlib.Path(__file__).resolve().parents[1] / "native"
 SOURCE = NATIVE / "src"
 
 # Each level may include itself, what stands before it, and the public headers.
-LEVELS = [["support"], ["geometry"], ["solve"], ["measure"], ["input", "pack", "align", "layout", "cut", "reduce"], ["report"], ["rectangles.h", "rectangles.cpp"], ["refine.cpp"]]
+LEVELS = [
+    ["support"],
+    ["geometry"],
+    ["solve"],
+    ["measure"],
+    ["input", "pack", "align", "layout", "cut", "reduce"],
+    ["report"],
+    ["rectangle_pictures"],
+    ["rectangles"],
+    ["refine"],
+]
 # Libraries that live in one place and nowhere else.
 HOMES = {
     "OpenMesh": ["src/geometry/"],
@@ -31,8 +41,8 @@ def includes(path):
 
 
 def part(name):
-    """The folder under src, or the file itself where it lies at the top."""
-    return name.split("/")[0]
+    """The folder under src, or the file itself, without its ending, where it lies at the top."""
+    return name.split("/")[0].removesuffix(".h").removesuffix(".cpp")
 
 
 def level(name):

@@ -8,6 +8,7 @@
 #include "layout/search_layout.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
+#include "rectangle_pictures.h"
 #include "reduce/density.h"
 #include "reduce/re_embed.h"
 #include "report/options.h"
@@ -48,6 +49,10 @@ class RectangleRoad {
     CutCharts cut = cut_charts(aligned, charts_, layout.trails, space_points(atlas_, set_));
     const std::vector<Chart> packed = place_pieces(layout, meshes_of(cut), charts_of(cut));
     for (std::size_t p = 0; p < packed.size(); ++p) cut.pieces[p].mesh.uvs = packed[p].uvs;
+    if (outcome_.draws()) {
+      for (const auto& picture : rectangle_pictures(charts_, aligned, layout.trails, options_.rectangles.sigma))
+        outcome_.show(picture);
+    }
     outcome_.show("packed", packed);
 
     outcome_.begin_stage("reduce", 0.45, 0.95);  // section 3.3

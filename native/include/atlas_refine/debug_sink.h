@@ -11,6 +11,13 @@
 
 namespace atlas_refine {
 
+/// Something drawn over the charts: a boundary edge and the direction it is to take, a trail, or (from == to) a corner.
+struct PictureMark {
+  enum class Kind { Right, Up, Left, Down, Trail, Cut, ConvexCorner, ReflexCorner };
+  Kind kind;
+  Vec2 from, to;
+};
+
 /// The atlas at one stage. All indices refer to `uvs`.
 struct AtlasSnapshot {
   std::string stage;    ///< "input", "placed", "squeezed", ...
@@ -19,6 +26,7 @@ struct AtlasSnapshot {
   std::vector<std::array<int, 3>> triangles;
   std::vector<double> stretch;                   ///< max(s1, 1 / s2) of each triangle, 1 = isometric
   std::vector<std::vector<int>> boundary_loops;  ///< closed, last vertex joins the first
+  std::vector<PictureMark> marks;                ///< drawn in this order
   Vec2 box_min = Vec2::Zero();
   Vec2 box_max = Vec2::Zero();
 };

@@ -28,6 +28,8 @@ class Outcome {
   void reduced(const ReduceResult& reduced) { result_.iterations += reduced.iterations; }
   /// Hands the charts to the debug sink, where there is one.
   void show(const std::string& stage, const std::vector<Chart>& charts);
+  bool draws() const { return debug_ != nullptr; }
+  void show(const AtlasSnapshot& picture) { debug_->receive(picture); }
 
   /// The input's own values.
   RefineResult unchanged(const Gap& gap);

@@ -169,6 +169,7 @@ class Picture {
     out_ << "<g transform=\"scale(" << 1.0 / kUnitsPerPixel << ")\" stroke-linejoin=\"round\">\n";
     write_heat_map();
     write_outlines();
+    for (const PictureMark& mark : snapshot_.marks) write_mark(mark);
     out_ << "</g>\n<rect x=\"" << frame_.left() << "\" y=\"" << kMargin << "\" width=\"" << frame_.box_width() << "\" height=\""
          << frame_.box_height() << "\" fill=\"none\" stroke=\"#8a8378\" stroke-width=\"1.2\"/>\n";
     write_caption();
@@ -206,6 +207,26 @@ class Picture {
     out_ << "<path fill=\"none\" stroke=\"#27303c\" stroke-width=\"13\" d=\"";
     write_loops(snapshot_.boundary_loops);
     out_ << "\"/>\n";
+  }
+
+  void write_mark(const PictureMark& mark) {
+    // One colour for each direction; by kind, then by width for lines and by radius for corners.
+    static constexpr std::array<std::pair<const char*, int>, 8> kStyles = {{{"#d1495b", 34},
+                                                                            {"#2e86ab", 34},
+                                                                            {"#edae49", 34},
+                                                                            {"#3a7d44", 34},
+                                                                            {"#8a8378", 9},
+                                                                            {"#d1495b", 30},
+                                                                            {"#27303c", 45},
+                                                                            {"#d1495b", 60}}};
+    const auto& [colour, size] = kStyles[static_cast<std::size_t>(mark.kind)];
+    const auto from = frame_.page(mark.from), to = frame_.page(mark.to);
+    if (mark.kind >= PictureMark::Kind::ConvexCorner) {
+      out_ << "<circle cx=\"" << from[0] << "\" cy=\"" << from[1] << "\" r=\"" << size << "\" fill=\"" << colour << "\"/>\n";
+      return;
+    }
+    out_ << "<path fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"" << size << "\" stroke-linecap=\"round\" d=\"M"
+         << from[0] << ' ' << from[1] << 'L' << to[0] << ' ' << to[1] << "\"/>\n";
   }
 
   void write_caption() {
