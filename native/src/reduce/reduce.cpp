@@ -19,11 +19,13 @@ constexpr double kRelaxed = 2e-3;      // the same for charts that come from abo
 constexpr double kNegligible = 1e-8;   // or a change of E_d that nobody can measure
 constexpr double kLeastPrice = 1e-3;   // the barrier is never softer than for this price
 constexpr double kMostFall = 0.01;  // log PE falls slowly from above the target: so much in one iteration, unless that is dear,
-constexpr double kPressure = 1;     // the barrier is as firm as for this price per unit of E_d - 1,
-constexpr double kDearest = 8;      // or for a price up to so much more,
-constexpr double kMostRise = 4;     // E_d - 1 beyond so much of the start's: the charts are wedged
-constexpr double kSlow = 0.05;      // and softens once a step gains less than this share of E_d - 1
-constexpr double kFirmness = 0.2;   // stiffness of the barrier per price and range while PE climbs,
+constexpr double kFastFall = 0.03;  // while E_d - 1 is still so many times what is enough:
+constexpr double kFar = 4;
+constexpr double kPressure = 1;          // the barrier is as firm as for this price per unit of E_d - 1,
+constexpr double kDearest = 8;           // or for a price up to so much more,
+constexpr double kMostRise = 4;          // E_d - 1 beyond so much of the start's: the charts are wedged
+constexpr double kSlow = 0.05;           // and softens once a step gains less than this share of E_d - 1
+constexpr double kFirmness = 0.2;        // stiffness of the barrier per price and range while PE climbs,
 constexpr double kSoftFirmness = 0.005;  // and at the end, when charts may come as near as the gap allows
 constexpr double kSoftening = 0.5;       // from one to the other, a step per iteration on the target
 constexpr double kOpenFirmness = 2;      // without a box: far from the optimum, a soft barrier grinds
@@ -120,7 +122,7 @@ class Reduction {
     const double climb_limit = within_distortion() ? std::clamp(0.2 * deficit(), kLeastClimb, kMostClimb) : 0;
     const double own_gain = dot(system_.pe_gradient, step_), gain_per_price = dot(system_.pe_gradient, climb);
     price_ = std::max(0.0, (std::min(deficit(), climb_limit) - own_gain) / gain_per_price);
-    if (relaxing_) price_ = std::max(price_, std::min(kDearest * least_price(), (-kMostFall - own_gain) / gain_per_price));
+    if (relaxing_) price_ = std::max(price_, std::min(kDearest * least_price(), (-most_fall() - own_gain) / gain_per_price));
     for (std::size_t i = 0; i < step_.size(); ++i) step_[i] += price_ * climb[i];
     return true;
   }
@@ -169,6 +171,8 @@ class Reduction {
     const double wanted = firmness_ * std::max(price, least_price()) * system_.range();
     stiffness_ = std::clamp(wanted, 0.5 * stiffness_, 2 * stiffness_);
   }
+
+  double most_fall() const { return energy_ - 1 > kFar * (problem_.enough_distortion - 1) ? kFastFall : kMostFall; }
 
   /// Where charts start above the bound and relax, they press on each other by the energy that they still have to lose.
   double least_price() const { return relaxing_ ? std::max(kLeastPrice, kPressure * (energy_ - 1)) : kLeastPrice; }
