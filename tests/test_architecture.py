@@ -28,6 +28,7 @@ HOMES = {
     "nlohmann": ["cli/report.cpp"],
     "pybind11": ["bindings/"],
 }
+TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)[^;\n]*\{", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 
 
@@ -107,6 +108,18 @@ def test_includes_make_no_circle():
 
     for name in graph:
         visit(name, [])
+
+
+def test_headers_name_no_type_twice():
+    """Two types of one name share their destructors: the linker keeps one of the two."""
+    names = [
+        (name, str(path.relative_to(NATIVE)))
+        for path in files(NATIVE)
+        if path.suffix == ".h"
+        for name in TYPE.findall(path.read_text(encoding="utf-8"))
+    ]
+    first = dict(reversed(names))
+    assert [(name, path, first[name]) for name, path in names if first[name] != path] == []
 
 
 def test_the_rule_itself():

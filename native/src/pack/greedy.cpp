@@ -8,8 +8,8 @@
 
 namespace atlas_refine {
 
-Layout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& rule, Watch& watch) {
-  Layout layout;
+GridLayout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& rule, Watch& watch) {
+  GridLayout layout;
   layout.turns.assign(charts.size(), 0);
   layout.places.assign(charts.size(), {});
   Occupancy strip(rule.strip_width);

@@ -81,7 +81,7 @@ GreedyRule random_rule(const Grid& grid, double aspect, Rng rng) {
   return rule;
 }
 
-std::vector<Placement> placements_of(const Grid& grid, const Layout& layout) {
+std::vector<Placement> placements_of(const Grid& grid, const GridLayout& layout) {
   std::vector<Placement> placements;
   for (size_t i = 0; i < grid.charts.size(); ++i) {
     const Raster& raster = grid.charts[i].rasters[layout.turns[i]];
@@ -117,13 +117,13 @@ class Search {
   }
 
  private:
-  double area_of(const Layout& layout) const {
+  double area_of(const GridLayout& layout) const {
     return box_area(layout.width * grid_.cell, layout.height * grid_.cell, options_.box_aspect);
   }
 
   /// Smallest box first; keeps the best placements up to date.
   void rank() {
-    std::stable_sort(layouts_.begin(), layouts_.end(), [&](const Layout& a, const Layout& b) { return area_of(a) < area_of(b); });
+    std::stable_sort(layouts_.begin(), layouts_.end(), [&](const GridLayout& a, const GridLayout& b) { return area_of(a) < area_of(b); });
     offer(placements_of(grid_, layouts_[0]));
   }
 
@@ -148,7 +148,7 @@ class Search {
   }
 
   void shrink_best() {
-    std::vector<Layout> shrunk(kFinalists);
+    std::vector<GridLayout> shrunk(kFinalists);
     watch_.begin_part(0.4, 0.9);
     parallel_ranges(kFinalists, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
@@ -180,7 +180,7 @@ class Search {
   Watch watch_;
   double enough_;  ///< box area at which the target is reached
   Grid grid_;
-  std::vector<Layout> layouts_;  ///< smallest box first
+  std::vector<GridLayout> layouts_;  ///< smallest box first
   std::vector<Placement> best_;
   double least_area_ = INFINITY;
 };

@@ -16,7 +16,7 @@ struct GridChart {
 };
 
 /// Where each chart lies: which of its rasters, and the cell of its min corner.
-struct Layout {
+struct GridLayout {
   std::vector<int> turns;
   std::vector<Cell> places;
   int width = 0;  ///< cells that are used
@@ -40,6 +40,6 @@ struct GreedyRule {
 
 /// Places charts one after another, each in the turn and at the place that the
 /// rule likes best.
-Layout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& rule, Watch& watch);
+GridLayout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& rule, Watch& watch);
 
 }  // namespace atlas_refine

@@ -29,7 +29,7 @@ class Separation {
 
   /// Moves and turns the charts until no two overlap inside width x height
   /// cells; false where it gives up.
-  bool run(Layout& layout, int width, int height);
+  bool run(GridLayout& layout, int width, int height);
 
  private:
   double& loss(int a, int b) { return loss_[a * n_ + b]; }
@@ -57,7 +57,7 @@ class Separation {
   Watch& watch_;
   std::vector<double> loss_;     ///< n x n, symmetric
   std::vector<double> weights_;  ///< n x n, symmetric
-  Layout* layout_ = nullptr;
+  GridLayout* layout_ = nullptr;
   int width_ = 0;
   int height_ = 0;
   std::int64_t work_ = 0;
@@ -204,7 +204,7 @@ bool Separation::move_inside() {
   return true;
 }
 
-bool Separation::run(Layout& layout, int width, int height) {
+bool Separation::run(GridLayout& layout, int width, int height) {
   layout_ = &layout;
   width_ = width;
   height_ = height;
@@ -224,7 +224,7 @@ bool Separation::run(Layout& layout, int width, int height) {
   return least == 0;
 }
 
-void measure_box(const std::vector<GridChart>& charts, Layout& layout) {
+void measure_box(const std::vector<GridChart>& charts, GridLayout& layout) {
   layout.width = layout.height = 0;
   for (size_t i = 0; i < charts.size(); ++i) {
     const Raster& raster = charts[i].rasters[layout.turns[i]];
@@ -235,7 +235,7 @@ void measure_box(const std::vector<GridChart>& charts, Layout& layout) {
 
 /// A box smaller by the fraction `shrink`: of the aspect, or narrower on one
 /// side.
-Cell smaller_box(const Layout& layout, double aspect, double shrink, Rng& rng) {
+Cell smaller_box(const GridLayout& layout, double aspect, double shrink, Rng& rng) {
   if (aspect > 0) {
     const double width = std::max<double>(layout.width, layout.height * aspect) * (1 - 0.5 * shrink);
     return {static_cast<int>(std::ceil(width)) - 1, static_cast<int>(std::ceil(width / aspect)) - 1};
@@ -248,17 +248,17 @@ Cell smaller_box(const Layout& layout, double aspect, double shrink, Rng& rng) {
 
 }  // namespace
 
-Layout shrink_box(const std::vector<GridChart>& charts, const Layout& start, const BoxGoal& goal, std::uint64_t seed,
+GridLayout shrink_box(const std::vector<GridChart>& charts, const GridLayout& start, const BoxGoal& goal, std::uint64_t seed,
                   Watch& watch) {
   constexpr int kTries = 3;
   const int n = static_cast<int>(charts.size());
   Separation separation(charts, Rng(seed, 1), watch);
-  Layout best = start;
+  GridLayout best = start;
   double shrink = 0.01;
   int failures = 0;
   for (int round = 0; !separation.exhausted() && box_area(best.width, best.height, goal.aspect) > goal.enough; ++round) {
     Rng rng(seed, 2, round);
-    Layout trial = best;
+    GridLayout trial = best;
     const Cell box = smaller_box(best, goal.aspect, shrink, rng);
     if (failures > 0) {
       for (int swaps = 1 + rng.below(2); swaps > 0; --swaps) std::swap(trial.places[rng.below(n)], trial.places[rng.below(n)]);

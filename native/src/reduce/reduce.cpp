@@ -24,7 +24,6 @@ constexpr double kFar = 4;
 constexpr double kPressure = 1;          // the barrier is as firm as for this price per unit of E_d - 1,
 constexpr double kDearest = 8;           // or for a price up to so much more,
 constexpr double kMostRise = 4;          // E_d - 1 beyond so much of the start's: the charts are wedged
-constexpr double kSlow = 0.05;           // and softens once a step gains less than this share of E_d - 1
 constexpr double kFirmness = 0.2;        // stiffness of the barrier per price and range while PE climbs,
 constexpr double kSoftFirmness = 0.005;  // and at the end, when charts may come as near as the gap allows
 constexpr double kSoftening = 0.5;       // from one to the other, a step per iteration on the target
@@ -133,7 +132,6 @@ class Reduction {
 
   /// Backtracks along the step from its largest fraction free of flips and collisions.
   void advance() {
-    const double energy_before = energy_;
     const double limit = system_.free_step(state_, step_);
     std::vector<Vec2> swept(step_.begin(), step_.begin() + system_.vertex_count());
     for (Vec2& s : swept) s *= limit;
@@ -155,7 +153,6 @@ class Reduction {
       break;
     }
     update_pe();
-    slow_ = fraction_ > 0.3 && energy_before - energy_ < kSlow * (energy_ - 1);
     adapt();
   }
 
@@ -165,7 +162,8 @@ class Reduction {
       damping_ = std::max(kLeastDamping, 0.5 * damping_);
     else if (fraction_ < 0.1)
       damping_ = std::min(kMostDamping, 4 * damping_);
-    if (bounded() && (relaxing_ ? slow_ : deficit() < kNearTarget)) firmness_ = std::max(kSoftFirmness, kSoftening * firmness_);
+    if (bounded() && deficit() < kNearTarget && (!relaxing_ || deficit() > -kNearTarget))
+      firmness_ = std::max(kSoftFirmness, kSoftening * firmness_);
     // A relaxing barrier that followed a price of its own making would freeze.
     const double price = relaxing_ ? std::min(price_, kDearest * least_price()) : price_;
     const double wanted = firmness_ * std::max(price, least_price()) * system_.range();
@@ -225,7 +223,7 @@ class Reduction {
   double first_energy_ = 0, energy_ = 0, pe_ = 0, price_ = 0, fraction_ = 1;
   double firmness_ = 0, stiffness_ = 0, damping_ = 1e-3;
   double best_energy_ = std::numeric_limits<double>::infinity(), best_pe_ = -1, best_price_ = 0;
-  bool best_holds_ = false, relaxing_ = false, slow_ = false;
+  bool best_holds_ = false, relaxing_ = false;
   int iteration_ = 0, calm_ = 0, idle_ = 0, expensive_ = 0, distorted_ = 0;
 };
 
