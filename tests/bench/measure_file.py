@@ -48,6 +48,7 @@ class Row:
     goal: str
     seams: str = "none"
     triangles: int = 0  # of the input
+    vertices: int = 0
     charts_in: int = 0
     charts: int = 0  # CN
     smallest: float = math.nan  # SA
@@ -176,6 +177,7 @@ def number(value):
 
 def fill_from_report(row, report):
     before, after = report["before"], report["after"]
+    row.vertices = sum(file["vertices"] for file in report["files"])
     row.how, row.charts_in, row.charts = report["intervention"], before["chart_count"], after["chart_count"]
     row.smallest, row.small_charts = number(after["smallest_chart"]), after["small_charts"]
     row.bl_in, row.bl = number(before["boundary_length"]), number(after["boundary_length"])

@@ -61,7 +61,7 @@ def test_results_with_and_without_cuts_stand_beside_each_other():
 
 def row(**changed):
     figures = {
-        "triangles": 1000, "charts": 5, "smallest": 0.1, "valid": True, "met": True, "bl_in": 1.0, "bl": 1.5, "pe": 0.83, "e_d_in": 1.05,
+        "triangles": 1000, "vertices": 500, "charts": 5, "smallest": 0.1, "valid": True, "met": True, "bl_in": 1.0, "bl": 1.5, "pe": 0.83, "e_d_in": 1.05,
         "e_d": 1.05, "e_2": 1.01, "seconds": 1.0, "cpu_seconds": 1.1, "newton_seconds": 0.02, "peak_bytes": 50.0 * MIB,
     }  # fmt: skip
     return Row("disk_deep", "a", "0.80 free rect", "rectangles", **(figures | changed))
