@@ -21,6 +21,9 @@ namespace {
 constexpr double kRelaxed = 1.01;
 // Until faces are restored pieces are kept so much further apart than the gap, which leaves room for the last steps.
 constexpr double kFirstGap = 1.02;
+constexpr double kFirstChange = 1e-2;  // relative change of E_d - 1 at which the reduction before ends,
+constexpr double kLastChange = 2e-3;   // and the one after
+constexpr double kSpread = 1.01;
 
 class RectangleRoad {
  public:
@@ -49,6 +52,7 @@ class RectangleRoad {
     CutCharts cut = cut_charts(aligned, charts_, layout.trails, space_points(atlas_, set_));
     const std::vector<Chart> packed = place_pieces(layout, meshes_of(cut), charts_of(cut));
     for (std::size_t p = 0; p < packed.size(); ++p) cut.pieces[p].mesh.uvs = packed[p].uvs;
+    spread(layout, cut);
     if (outcome_.draws()) {
       for (const auto& picture : rectangle_pictures(charts_, aligned, layout.trails, options_.rectangles.sigma))
         outcome_.show(picture);
@@ -58,9 +62,9 @@ class RectangleRoad {
     outcome_.begin_stage("reduce", 0.45, 0.95);  // section 3.3
     Gap wide = layout.gap;
     wide.value *= kFirstGap;
-    const ReduceResult reduced = reduce(cut, wide);
+    const ReduceResult reduced = reduce(cut, wide, kFirstChange);
     if (cut.seams.empty() && !(reduced.reached && reduced.energy <= kRelaxed * enough_)) return std::nullopt;
-    if (restore(cut) > 0) reduce(cut, layout.gap);
+    if (restore(cut) > 0) reduce(cut, layout.gap, kLastChange);
     return outcome_.certified_cut(set_, cut, layout.gap);
   }
 
@@ -75,8 +79,18 @@ class RectangleRoad {
     }
   }
 
+  /// Puts the pieces a little further apart, as far as the bound allows: pieces that touch block each other's first steps.
+  void spread(const Layout& layout, CutCharts& cut) const {
+    const double factor = std::min(kSpread, std::sqrt(layout.pe / (1.01 * options_.pe_bound)));
+    if (!(factor > 1)) return;
+    for (CutPiece& piece : cut.pieces) {
+      const Vec2 shift = (factor - 1) * uv_box({piece.mesh}).min;
+      for (Vec2& uv : piece.mesh.uvs) uv += shift;
+    }
+  }
+
   /// Moves the pieces to less distortion under the bound.
-  ReduceResult reduce(CutCharts& cut, const Gap& gap) {
+  ReduceResult reduce(CutCharts& cut, const Gap& gap, double least_change) {
     const std::vector<Chart> pieces = meshes_of(cut);
     const bool to_the_end = options_.rectangles.until_bound || options_.reference == Reference::Input;
     const ReduceProblem problem{.charts = pieces,
@@ -84,6 +98,7 @@ class RectangleRoad {
                                 .box_aspect = options_.box_aspect,
                                 .pe_target = options_.pe_bound,
                                 .enough_distortion = to_the_end ? 0 : enough_,
+                                .least_change = least_change,
                                 .max_distortion = options_.max_distortion.value_or(0),
                                 .threads = threads_};
     ReduceResult reduced = reduce_distortion(

@@ -123,7 +123,8 @@ class Search {
 
   /// Smallest box first; keeps the best placements up to date.
   void rank() {
-    std::stable_sort(layouts_.begin(), layouts_.end(), [&](const GridLayout& a, const GridLayout& b) { return area_of(a) < area_of(b); });
+    std::stable_sort(layouts_.begin(), layouts_.end(),
+                     [&](const GridLayout& a, const GridLayout& b) { return area_of(a) < area_of(b); });
     offer(placements_of(grid_, layouts_[0]));
   }
 

@@ -249,7 +249,7 @@ Cell smaller_box(const GridLayout& layout, double aspect, double shrink, Rng& rn
 }  // namespace
 
 GridLayout shrink_box(const std::vector<GridChart>& charts, const GridLayout& start, const BoxGoal& goal, std::uint64_t seed,
-                  Watch& watch) {
+                      Watch& watch) {
   constexpr int kTries = 3;
   const int n = static_cast<int>(charts.size());
   Separation separation(charts, Rng(seed, 1), watch);

@@ -18,6 +18,6 @@ struct BoxGoal {
 /// Shrinks a feasible layout's box again and again until a fixed amount of work
 /// is used up. Deterministic.
 GridLayout shrink_box(const std::vector<GridChart>& charts, const GridLayout& start, const BoxGoal& goal, std::uint64_t seed,
-                  Watch& watch);
+                      Watch& watch);
 
 }  // namespace atlas_refine

@@ -14,9 +14,7 @@ constexpr double kLeastClimb = 0.01;   // log PE gains at most this much in one 
 constexpr double kMostClimb = 0.03;    // and this much far below it
 constexpr double kTargetSlack = 2e-5;  // aim so much above the bound, relative, that rounding cannot lose it
 constexpr double kNearTarget = 1e-3;   // log PE: from here on the barrier softens
-constexpr double kConverged = 2e-4;    // relative change of E_d - 1, twice in a row,
-constexpr double kRelaxed = 2e-3;      // the same for charts that come from above the bound,
-constexpr double kNegligible = 1e-8;   // or a change of E_d that nobody can measure
+constexpr double kNegligible = 1e-8;   // a change of E_d that nobody can measure
 constexpr double kLeastPrice = 1e-3;   // the barrier is never softer than for this price
 constexpr double kMostFall = 0.01;  // log PE falls slowly from above the target: so much in one iteration, unless that is dear,
 constexpr double kFastFall = 0.03;  // while E_d - 1 is still so many times what is enough:
@@ -180,8 +178,7 @@ class Reduction {
 
   void count_progress(double energy_before, double pe_before) {
     const bool on_target = !bounded() || (std::abs(deficit()) < 1e-4 || (holds_bound() && price_ == 0));
-    const double converged = relaxing_ ? kRelaxed : kConverged;
-    const bool quiet = std::abs(energy_ - energy_before) < converged * (energy_ - 1) + kNegligible && fraction_ > 0.1;
+    const bool quiet = std::abs(energy_ - energy_before) < problem_.least_change * (energy_ - 1) + kNegligible && fraction_ > 0.1;
     calm_ = on_target && quiet && settled() ? calm_ + 1 : 0;
     expensive_ = price_ > problem_.max_price ? expensive_ + 1 : 0;
     distorted_ = !within_distortion() && quiet ? distorted_ + 1 : 0;
