@@ -216,8 +216,11 @@ class Cuts(unittest.TestCase):
             self.assertLess(np.abs(shape(obj, name)[old:] - means).max(), 3e-7, name)
 
     def test_a_failure_leaves_every_bit(self):
-        def no_edge(plan):
-            return dataclasses.replace(plan, new_seams=np.array([[0, 19]]))
+        def a_piece_twice(plan):
+            vertices = plan.atlas.corner_vertices.copy()
+            self.assertEqual(plan.face_sources[:2].tolist(), [0, 0])
+            vertices[5:10] = vertices[:5]
+            return dataclasses.replace(plan, atlas=dataclasses.replace(plan.atlas, corner_vertices=vertices))
 
         def other_position(plan):
             positions = plan.atlas.positions.copy()
@@ -225,7 +228,7 @@ class Cuts(unittest.TestCase):
             return dataclasses.replace(plan, atlas=dataclasses.replace(plan.atlas, positions=positions))
 
         for mode in ("OBJECT", "EDIT"):
-            for spoil in (no_edge, other_position):
+            for spoil in (a_piece_twice, other_position):
                 with self.subTest(mode=mode, spoil=spoil.__name__):
                     obj = add_rich_mesh()
                     if mode == "EDIT":  # one visit alone packs custom normals anew

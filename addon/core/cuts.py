@@ -27,7 +27,7 @@ class CutPlan:
     vertex_sources: np.ndarray  # (N, 3) input vertices, whose mean a new vertex is
     vertex_weights: np.ndarray  # (N, 3)
     edge_splits: list
-    new_seams: np.ndarray  # (S, 2) vertices
+    new_seams: np.ndarray  # (S, 2) vertices: edges of the atlas
 
     @property
     def input_vertex_count(self):
@@ -57,15 +57,16 @@ def plan_cut(source, cut, corner_uvs):
     corner_sources, corner_weights = _corner_means(source, cut, vertex_sources, weights)
     new_positions = _means(source.positions.astype(np.float64), vertex_sources, weights)
     positions = np.concatenate([source.positions, new_positions]).astype(np.float32)
+    atlas = AtlasArrays(positions, cut.face_offsets, cut.corner_vertices, corner_uvs)
     return CutPlan(
-        atlas=AtlasArrays(positions, cut.face_offsets, cut.corner_vertices, corner_uvs),
+        atlas=atlas,
         face_sources=cut.face_sources,
         corner_sources=corner_sources,
         corner_weights=corner_weights,
         vertex_sources=vertex_sources,
         vertex_weights=weights,
         edge_splits=_edge_splits(source, corners, weights),
-        new_seams=cut.new_seams,
+        new_seams=_seam_edges(atlas, cut.new_seams),
     )
 
 
@@ -143,8 +144,7 @@ def _find_corners(source, faces, vertices):
     found = _lookup(source, source.corner_vertices, faces, vertices)
     if np.all(found >= 0):
         return found
-    _, places = np.unique(source.positions, axis=0, return_inverse=True)
-    places = places.reshape(-1)
+    places = _places(source.positions)
     return np.where(found >= 0, found, _lookup(source, places[source.corner_vertices], faces, places[vertices]))
 
 
@@ -158,11 +158,35 @@ def _lookup(source, corner_vertices, faces, vertices):
     return np.where(keys[order][place] == wanted, order[place], -1)
 
 
+def _places(positions):
+    """A number for each vertex, equal where positions are."""
+    return np.unique(positions, axis=0, return_inverse=True)[1].reshape(-1)
+
+
+def _seam_edges(atlas, new_seams):
+    """The edges that lie where new seams do. Where vertices are doubled a seam has two edges, or goes from one double to the
+    other: the engine takes vertices at one position for one."""
+    places = _places(atlas.positions)
+    following = _following_corners(atlas.face_offsets)
+    edges = np.sort(np.column_stack([atlas.corner_vertices, atlas.corner_vertices[following]]), axis=1)
+    keys, wanted = (
+        ends.min(axis=1).astype(np.int64) * len(places) + ends.max(axis=1) for ends in (places[edges], places[new_seams])
+    )
+    _require(np.all(np.isin(wanted, keys)), "a new seam is no edge")
+    return np.unique(edges[np.isin(keys, wanted)], axis=0)
+
+
+def _following_corners(face_offsets):
+    """For each corner the next one of its face."""
+    following = np.arange(1, face_offsets[-1] + 1)
+    following[face_offsets[1:] - 1] = face_offsets[:-1]
+    return following
+
+
 def _edge_splits(source, corners, weights):
     """The new vertices on edges of input faces, sorted by edge and along each; those inside of faces are left out."""
     corner_faces = np.repeat(np.arange(len(source.face_offsets) - 1), np.diff(source.face_offsets))
-    following = np.arange(1, len(source.corner_vertices) + 1)
-    following[source.face_offsets[1:] - 1] = source.face_offsets[:-1]
+    following = _following_corners(source.face_offsets)
     edges = {}
     for new, (row, three) in enumerate(zip(corners.tolist(), weights.tolist(), strict=True)):
         ends = [(corner, weight) for corner, weight in zip(row, three, strict=True) if weight > 0]

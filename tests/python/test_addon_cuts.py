@@ -3,6 +3,7 @@
 import itertools
 import pathlib
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -89,6 +90,7 @@ def test_doubled_vertices_are_found_by_their_position():
     second = np.repeat(cut.face_sources, np.diff(cut.face_offsets)) == 1
     cut.corner_vertices[second & (cut.corner_vertices == 1)] = 6
     cut.corner_vertices[second & (cut.corner_vertices == 4)] = 7
+    cut.new_seams = cut.new_seams + 2
     plan = plan_cut(as_blender_stores((doubled, offsets, corners, uvs)), cut, cut_uvs)
     means = np.einsum("ck,ckd->cd", plan.corner_weights, doubled[corners[plan.corner_sources]])
     assert means == pytest.approx(plan.atlas.positions[cut.corner_vertices], abs=1e-6)
@@ -100,6 +102,22 @@ def test_a_mesh_whose_faces_times_vertices_exceed_32_bits():
     cut, uvs = Cutter(*arrays).cut(1, 99.5, faces=[9998, 9999]).result()
     plan = plan_cut(as_blender_stores(arrays), cut, uvs)
     assert [split.fractions for split in plan.edge_splits] == [[0.5]] * 3
+
+
+def test_a_seam_beside_doubled_vertices_is_each_edge_at_its_place():
+    positions, offsets, corners, uvs = shapes.join(shapes.grid(2, 1))
+    doubled, apart = np.concatenate([positions, positions[[1, 4]]]), {1: 6, 4: 7}
+    corners = np.array([apart.get(vertex, vertex) if k >= 4 else vertex for k, vertex in enumerate(corners.tolist())])
+    cut = SimpleNamespace(
+        face_offsets=offsets.astype(np.int32),
+        corner_vertices=corners.astype(np.int32),
+        face_sources=np.array([0, 1], dtype=np.int32),
+        new_vertex_corners=np.zeros((0, 3), dtype=np.int32),
+        new_vertex_weights=np.zeros((0, 3)),
+        new_seams=np.array([[1, 4], [1, 2]], dtype=np.int32),  # the latter is 6 to 2 in its only face
+    )
+    plan = plan_cut(as_blender_stores((doubled, offsets, corners, uvs)), cut, uvs.astype(np.float32))
+    assert plan.new_seams.tolist() == [[1, 4], [2, 6], [6, 7]]
 
 
 def test_directions_have_length_one():
@@ -136,6 +154,7 @@ def test_faces_that_start_elsewhere_are_the_same():
         ("corner_vertices", lambda a: a + 100, "vertices"),
         ("corner_vertices", lambda a: np.concatenate([a[:1], a[:1], a[2:]]), "twice"),
         ("new_seams", lambda a: a - 10**6, "vertices"),
+        ("new_seams", lambda a: a * 0 + [0, 19], "new seam"),
         ("new_vertex_corners", lambda a: a + 10**6, "new vertices"),
         ("new_vertex_corners", lambda a: (a + 4) % 48, "outside"),
         ("new_vertex_weights", lambda a: a * 0 + [1.0, 0.0, 0.0], "old one"),
