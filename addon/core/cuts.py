@@ -52,12 +52,13 @@ def plan_cut(source, cut, corner_uvs):
     """The plan that makes `cut` (the engine's CutMesh) out of the AtlasArrays `source`. Raises ValueError where they do not fit
     together, which is a bug of the engine and must not reach a mesh."""
     _check_indices(source, cut, corner_uvs)
-    corners, weights = np.asarray(cut.new_vertex_corners), np.asarray(cut.new_vertex_weights)
+    corner_sources, corner_weights = _corner_means(source, cut)
+    corner_vertices, first_corners, numbers = _double_new_vertices(source, cut, corner_sources)
+    corners, weights = corner_sources[first_corners], corner_weights[first_corners]
     vertex_sources = source.corner_vertices[corners].reshape(-1, 3)
-    corner_sources, corner_weights = _corner_means(source, cut, vertex_sources, weights)
     new_positions = _means(source.positions.astype(np.float64), vertex_sources, weights)
     positions = np.concatenate([source.positions, new_positions]).astype(np.float32)
-    atlas = AtlasArrays(positions, cut.face_offsets, cut.corner_vertices, corner_uvs)
+    atlas = AtlasArrays(positions, cut.face_offsets, corner_vertices, corner_uvs)
     return CutPlan(
         atlas=atlas,
         face_sources=cut.face_sources,
@@ -66,7 +67,7 @@ def plan_cut(source, cut, corner_uvs):
         vertex_sources=vertex_sources,
         vertex_weights=weights,
         edge_splits=_edge_splits(source, corners, weights),
-        new_seams=_seam_edges(atlas, cut.new_seams),
+        new_seams=_seam_edges(atlas, numbers[cut.new_seams]),
     )
 
 
@@ -114,6 +115,10 @@ def _check_indices(source, cut, corner_uvs):
     _require(offsets[-1] == len(cut.corner_vertices) == len(corner_uvs), "corners")
     _require(_in_range(cut.corner_vertices, vertex_count) and _in_range(cut.new_seams, vertex_count), "vertices")
     _require(_in_range(cut.new_vertex_corners, len(source.corner_vertices)), "new vertices")
+    _require(
+        len(np.unique(cut.corner_vertices[cut.corner_vertices >= len(source.positions)])) == len(cut.new_vertex_corners),
+        "a new vertex is in no face",
+    )
     _require(np.array_equal(np.unique(sources), np.arange(len(source.face_offsets) - 1)), "a face is lost")
     _require(np.all(np.diff(sources) >= 0), "the order of faces")
     faces = np.repeat(np.arange(len(sources)), np.diff(offsets))
@@ -124,9 +129,25 @@ def _in_range(indices, count):
     return len(indices) == 0 or (indices.min() >= 0 and indices.max() < count)
 
 
-def _corner_means(source, cut, vertex_sources, vertex_weights):
+def _double_new_vertices(source, cut, corner_sources):
+    """A new vertex on an edge whose vertices are doubled is doubled as well, or it would sew together what lies apart. Returns the
+    corner_vertices, a corner of each new vertex, and the first number of each of the engine's vertices."""
+    old_vertices = len(source.positions)
+    corners = np.flatnonzero(cut.corner_vertices >= old_vertices)
+    rows = np.column_stack([cut.corner_vertices[corners], source.corner_vertices[corner_sources[corners]]])
+    distinct, first, inverse = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    corner_vertices = cut.corner_vertices.copy()
+    corner_vertices[corners] = old_vertices + inverse.reshape(-1)
+    numbers = np.arange(old_vertices + len(cut.new_vertex_corners))
+    numbers[old_vertices:] = old_vertices + np.searchsorted(distinct[:, 0], numbers[old_vertices:])
+    return corner_vertices, corners[first], numbers
+
+
+def _corner_means(source, cut):
     """corner_sources and corner_weights of a CutPlan."""
     old_vertices = len(source.positions)
+    vertex_sources = source.corner_vertices[cut.new_vertex_corners].reshape(-1, 3)
+    vertex_weights = np.asarray(cut.new_vertex_weights)
     supports = np.repeat(np.arange(old_vertices)[:, None], 3, axis=1)  # an input vertex is the mean of itself
     supports = np.concatenate([supports, vertex_sources])[cut.corner_vertices]
     weights = np.concatenate([np.tile([1.0, 0.0, 0.0], (old_vertices, 1)), vertex_weights])[cut.corner_vertices]

@@ -93,7 +93,11 @@ def test_doubled_vertices_are_found_by_their_position():
     cut.new_seams = cut.new_seams + 2
     plan = plan_cut(as_blender_stores((doubled, offsets, corners, uvs)), cut, cut_uvs)
     means = np.einsum("ck,ckd->cd", plan.corner_weights, doubled[corners[plan.corner_sources]])
-    assert means == pytest.approx(plan.atlas.positions[cut.corner_vertices], abs=1e-6)
+    assert means == pytest.approx(plan.atlas.positions[plan.atlas.corner_vertices], abs=1e-6)
+    faces = np.repeat(cut.face_sources, np.diff(cut.face_offsets))
+    sides = [set(plan.atlas.corner_vertices[faces == face].tolist()) for face in (0, 1)]
+    assert sides[0] & sides[1] == set(), "the two quads stay apart"
+    assert len(plan.edge_splits) == 4
 
 
 def test_a_mesh_whose_faces_times_vertices_exceed_32_bits():
