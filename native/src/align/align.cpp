@@ -24,6 +24,9 @@ constexpr double kCornerCost = 2.5;
 constexpr double kLeastSegment = 2;  // shortest side of the axis-aligned chart, in sigmas
 // Where a deformation fails, a finer and then a coarser sigma are tried: a closer likeness, then fewer corners.
 constexpr double kSigmas[] = {1, 0.6, 2.5};
+// Lines nearer than this many sigmas are made one, unless that raises E_d - 1 by more than the factor.
+constexpr double kSameLine[] = {0.5, 0.1, 1e-3, 1e-6};
+constexpr double kMergeCost = 1.05;
 constexpr int kLeastTriangles = 4;   // charts of fewer are packed as they are
 constexpr double kTooDistorted = 4;  // E_d of an axis-aligned chart that is not worth it
 
@@ -76,6 +79,37 @@ std::optional<std::vector<Vec2>> onto_rectangle(const Chart& chart, const Bounda
   std::vector<Vec2> uvs = tutte(chart, 0, polygon);
   if (!positive(chart, uvs)) return std::nullopt;
   return uvs;
+}
+
+/// Segments whose coordinates are nearly the same get the same one, as their mean: trails between their corners then meet.
+std::vector<Vec2> merged_lines(const std::vector<Vec2>& uvs, const std::vector<int>& boundary,
+                               const std::vector<int>& quarter_turns, double tolerance) {
+  std::vector<Vec2> out = uvs;
+  const std::size_t n = boundary.size();
+  for (int axis = 0; axis < 2; ++axis) {
+    std::vector<double> lines;
+    const auto keeps = [&](std::size_t i) { return (quarter_turns[i] % 2 == 0) == (axis == 1); };
+    for (std::size_t i = 0; i < n; ++i) {
+      if (keeps(i)) lines.push_back(uvs[boundary[i]][axis]);
+    }
+    std::sort(lines.begin(), lines.end());
+    lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+    std::vector<double> means(lines.size());
+    for (std::size_t first = 0; first < lines.size();) {
+      std::size_t end = first;
+      double sum = 0;
+      while (end < lines.size() && lines[end] - lines[first] <= tolerance) sum += lines[end++];
+      std::fill(means.begin() + first, means.begin() + end, sum / static_cast<double>(end - first));
+      first = end;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!keeps(i)) continue;
+      const double line = uvs[boundary[i]][axis];
+      const double mean = means[std::lower_bound(lines.begin(), lines.end(), line) - lines.begin()];
+      out[boundary[i]][axis] = out[boundary[(i + 1) % n]][axis] = mean;
+    }
+  }
+  return out;
 }
 
 class Aligner {
@@ -151,8 +185,16 @@ class Aligner {
   std::optional<std::vector<Vec2>> accepted(const BoundaryAngles& boundary, std::vector<Vec2> uvs, AxisAlignedChart& out) const {
     Chart aligned = chart_;
     aligned.uvs = uvs;
+    double energy = dirichlet_sums(aligned).best_energy();
+    if (!(energy < kTooDistorted)) return std::nullopt;
+    for (const double tolerance : kSameLine) {
+      aligned.uvs = merged_lines(uvs, boundary.vertices, out.quarter_turns, tolerance * sigma_ * boundary.perimeter());
+      if (!positive(aligned, aligned.uvs) || dirichlet_sums(aligned).best_energy() - 1 > kMergeCost * (energy - 1)) continue;
+      uvs = aligned.uvs;
+      break;
+    }
+    aligned.uvs = uvs;
     const DirichletSums sums = dirichlet_sums(aligned);
-    if (!(sums.best_energy() < kTooDistorted)) return std::nullopt;
     for (Vec2& uv : uvs) uv *= sums.best_scale();
     out.boundary = boundary.vertices;
     return uvs;

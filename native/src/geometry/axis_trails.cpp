@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "atlas_refine/error.h"
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
 
@@ -46,7 +47,11 @@ std::vector<int> TrailTracer::trace(const TrailStart& start, Until until) {
 
 std::vector<int> TrailTracer::path(const TrailStart& start, int end) {
   std::vector<int> vertices = {start.vertex};
-  while (vertices.back() != end) vertices.push_back(next_vertex(vertices.back(), start.quarter_turns));
+  while (vertices.back() != end) {
+    const int next = next_vertex(vertices.back(), start.quarter_turns);
+    if (next < 0) throw RefineError(ErrorCode::NotCertified, "layout", "a trail was lost on its way");
+    vertices.push_back(next);
+  }
   return vertices;
 }
 

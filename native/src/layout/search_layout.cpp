@@ -14,13 +14,14 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kSlack = 1.002;      // layouts are to hold so much more than the bound: stage 3 starts from them
-constexpr double kMoreThanGap = 1.2;  // kept beyond the gap: stage 3 starts with a little freedom
-constexpr double kLongestSides = 20;  // aspect of a rectangle; longer ones are long and narrow
-constexpr int kChains = 8;            // independent searches, so that threads do not change the result
-constexpr double kHot = 0.01;         // accepted loss of score at the start of a chain
-constexpr int kFinalists = 4;         // layouts whose packing is annealed
-constexpr int kAnnealing = 60000;     // position evaluations per finalist, shared by its rectangles
+constexpr double kSlack = 1.002;        // layouts are to hold so much more than the bound: stage 3 starts from them
+constexpr double kMoreThanGap = 1.2;    // kept beyond the gap: stage 3 starts with a little freedom
+constexpr double kLeastPadding = 2e-4;  // of the box diagonal, where no gap is asked for: borders must not touch
+constexpr double kLongestSides = 20;    // aspect of a rectangle; longer ones are long and narrow
+constexpr int kChains = 8;              // independent searches, so that threads do not change the result
+constexpr double kHot = 0.01;           // accepted loss of score at the start of a chain
+constexpr int kFinalists = 4;           // layouts whose packing is annealed
+constexpr int kAnnealing = 60000;       // position evaluations per finalist, shared by its rectangles
 constexpr int kExtraCorners[] = {4, 12, 32};
 
 /// What a layout is judged by.
@@ -88,7 +89,7 @@ class Search {
       if (candidate.score.value > best.score.value) best = std::move(candidate);
     }
     // A larger gap makes a larger box: what was packed for another box is packed again.
-    for (int k = 0; k < 4 && padding_ < kMoreThanGap * gap.length(best.packing.box); ++k) {
+    for (int k = 0; k < 4 && padding_ < padding(gap, best.packing.box); ++k) {
       set_padding(gap, best.packing.box);
       padding_ *= 1 + 0.002 * k;
       pack_well(best, round, k);
@@ -101,7 +102,10 @@ class Search {
     const double height = std::sqrt(area_ / 0.85 / aspect);
     return {aspect * height, height};
   }
-  void set_padding(const Gap& gap, const Vec2& box) { padding_ = kMoreThanGap * gap.length(box); }
+  void set_padding(const Gap& gap, const Vec2& box) { padding_ = padding(gap, box); }
+  static double padding(const Gap& gap, const Vec2& box) {
+    return std::max(kMoreThanGap * gap.length(box), kLeastPadding * box.norm());
+  }
 
   /// The best layouts of all chains, best first, their packings annealed.
   std::vector<Candidate> run_chains(int round) {

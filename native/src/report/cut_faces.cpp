@@ -57,8 +57,10 @@ class FaceBuilder {
       const bool turned = is_turned(f);
       for (const FacePart& part : parts_[f]) {
         const Chart& mesh = cut_.pieces[part.piece].mesh;
+        // A triangle with a corner in the middle of a side would be a polygon that other tools may lay flat: it is divided.
         const std::vector<int> outline = outline_of(mesh, part.triangles);
-        if (!outline.empty()) {
+        const bool triangle = atlas_.face_offsets[f + 1] - atlas_.face_offsets[f] == 3;
+        if (!outline.empty() && !triangle) {
           add_face(f, part.piece, outline, turned);
           continue;
         }
