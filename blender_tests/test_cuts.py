@@ -227,8 +227,11 @@ class Cuts(unittest.TestCase):
             positions[0, 0] += 0.5  # of an input vertex: not what the mesh holds
             return dataclasses.replace(plan, atlas=dataclasses.replace(plan.atlas, positions=positions))
 
+        def no_edge_split(plan):
+            return dataclasses.replace(plan, edge_splits=plan.edge_splits[:-1])
+
         for mode in ("OBJECT", "EDIT"):
-            for spoil in (a_piece_twice, other_position):
+            for spoil in (a_piece_twice, other_position, no_edge_split):
                 with self.subTest(mode=mode, spoil=spoil.__name__):
                     obj = add_rich_mesh()
                     if mode == "EDIT":  # one visit alone packs custom normals anew

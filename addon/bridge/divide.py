@@ -11,14 +11,14 @@ from . import versions
 def divide(mesh, uv_map, plan):
     """Makes the BMesh the plan's mesh, in the plan's order, with the plan's UVs in the map and its new seams marked. Where it
     raises, the BMesh is half done: rehearse on a copy."""
-    verts, faces, changed = list(mesh.verts), list(mesh.faces), plan.changed_faces()
-    source_loops = _loops_by_corner(faces, changed)
+    verts, faces = list(mesh.verts), list(mesh.faces)
+    source_loops = _loops_by_corner(faces, plan.changed_faces())
     verts += [None] * len(plan.vertex_sources)
     _split_edges(mesh, plan, verts)
     for vertex in range(plan.input_vertex_count, len(verts)):
         if verts[vertex] is None:  # inside of a face
             verts[vertex] = mesh.verts.new()
-    pieces = _make_pieces(mesh, plan, verts, faces, changed)
+    pieces = _make_pieces(mesh, plan, verts, faces)
     _fill_corners(mesh, plan, verts, pieces, source_loops)
     _place_new_vertices(mesh, plan, verts)
     _remove_divided(mesh, faces, set(pieces))
@@ -44,32 +44,24 @@ def _split_edges(mesh, plan, verts):
             last, reached = verts[vertex], fraction
 
 
-def _make_pieces(mesh, plan, verts, faces, changed):
-    """The faces of the plan: an input face itself where split edges have made it what it shall be, else new ones."""
+def _make_pieces(mesh, plan, verts, faces):
+    """The faces of the plan: an input face itself, which split edges have given its new corners, or those that divide it."""
     pieces, corners = [], plan.atlas.corner_vertices.tolist()
-    for source, outputs in itertools.groupby(
-        zip(plan.face_sources.tolist(), _spans(plan), strict=True), key=lambda pair: pair[0]
-    ):
-        face = faces[source]
-        if source not in changed:
+    outputs = zip(plan.face_sources.tolist(), _spans(plan), strict=True)
+    for source, group in itertools.groupby(outputs, key=lambda output: output[0]):
+        face, spans = faces[source], [span for _, span in group]
+        if len(spans) == 1:
             pieces.append(face)
-            continue
-        cycles = [[verts[vertex] for vertex in corners[begin:end]] for _, (begin, end) in outputs]
-        if len(cycles) == 1 and _same_cycle(list(face.verts), cycles[0]):
-            pieces.append(face)
+            if len(face.verts) != spans[0][1] - spans[0][0]:
+                raise ValueError(f"the cut mesh does not fit the mesh: face {source} gains a corner off its edges")
         else:
-            pieces += [_make_piece(mesh, cycle, face) for cycle in cycles]
+            pieces += [_make_piece(mesh, [verts[vertex] for vertex in corners[begin:end]], face) for begin, end in spans]
     return pieces
 
 
 def _spans(plan):
     """(first corner, end) of each face of the plan."""
     return itertools.pairwise(plan.atlas.face_offsets.tolist())
-
-
-def _same_cycle(mine, theirs):
-    start = mine.index(theirs[0]) if theirs[0] in mine else 0
-    return mine[start:] + mine[:start] == theirs
 
 
 def _make_piece(mesh, cycle, face):
@@ -151,14 +143,10 @@ def _place_new_vertices(mesh, plan, verts):
 
 
 def _remove_divided(mesh, faces, pieces):
-    """The input faces that others have replaced, and edges that no face has any more."""
+    """The input faces that others have replaced."""
     for face in faces:
         if face not in pieces:
-            edges = list(face.edges)
             mesh.faces.remove(face)
-            for edge in edges:
-                if not edge.link_faces:
-                    mesh.edges.remove(edge)
 
 
 def _sort(elements, sequence):
