@@ -1,10 +1,13 @@
 """The demo: a subdivided Suzanne in headless Blender, unwrapped by Blender, brought to PE 0.80 by the add-on's operator.
 
-usage: demo.py OUT_DIR     writes before.png, after.png, tighter.png (0.90), before.obj, after.obj, suzanne.blend and table.txt
+usage: demo.py OUT_DIR     writes before.png, after.png, tighter.png (0.90), squeezed.png and cut.png (the two roads), before.obj,
+                           after.obj, suzanne.blend and table.txt
 """
 
+import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -14,15 +17,21 @@ import blenders
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
-def draw(out, model, picture, pe_bound, title):
-    """The last stage of refining `model`.obj to a bound, drawn by the program; a bound it holds already draws it as it is."""
+def draw(out, model, picture, title, *options):
+    """The last stage of refining `model`.obj, drawn by the program, with its figures below; at the least bound it is drawn as it is."""
     with tempfile.TemporaryDirectory() as folder:
         command = [str(ROOT / "build" / "atlas-refine"), str(out / f"{model}.obj"), "-o", f"{folder}/refined.obj"]
-        command += ["--pe-bound", str(pe_bound), "--density", "keep", "--svg", f"{folder}/svg"]
+        command += ["--density", "keep", "--svg", f"{folder}/svg", "--report", f"{folder}/report.json", *options]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
         last = max(pathlib.Path(folder, "svg").iterdir())
         stage = last.stem.split("-", 1)[1]
-        last.write_text(last.read_text().replace(f">{stage}<", f">{title}<", 1))
+        drawn = last.read_text().replace(f">{stage}<", f">{title}<", 1)
+        if stage != "input":
+            report = json.loads(pathlib.Path(folder, "report.json").read_text())
+            before, after = report["before"]["boundary_length"], report["after"]["boundary_length"]
+            seams = f", seams +{max(0, 100 * (after / before - 1)):.0f} %, {report['seconds']['refine']:.1f} s"
+            drawn = re.sub(r"(PE [0-9.]+ %, E_d [0-9.]+)", rf"\1{seams}", drawn, count=1)
+        last.write_text(drawn)
         subprocess.run(["rsvg-convert", "--height", "700", str(last), "-o", str(out / f"{picture}.png")], check=True)
 
 
@@ -39,11 +48,13 @@ def main(out_dir):
             done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
             if done.returncode != 0:
                 sys.exit(f"{script} failed in {blender.name}:\n{done.stdout}{done.stderr}")
-    draw(out, "before", "before", 0.01, "Blender's unwrap")
-    draw(out, "after", "after", 0.01, "refined to 0.80")
-    draw(out, "before", "tighter", 0.90, "refined to 0.90")
+    draw(out, "before", "before", "Blender's unwrap", "--pe-bound", "0.01")
+    draw(out, "after", "after", "refined to 0.80", "--pe-bound", "0.01")
+    draw(out, "before", "tighter", "refined to 0.90", "--pe-bound", "0.90")
+    draw(out, "before", "squeezed", "squeezed to 0.80", "--pe-bound", "0.80")
+    draw(out, "before", "cut", "cut into rectangles, 0.80", "--pe-bound", "0.80", "--seams", "rectangles")
     print((out / "table.txt").read_text())
-    for file in ("before.png", "after.png", "tighter.png", "suzanne.blend", "table.txt"):
+    for file in ("before.png", "after.png", "tighter.png", "squeezed.png", "cut.png", "suzanne.blend", "table.txt"):
         print(out / file)
 
 
