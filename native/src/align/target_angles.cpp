@@ -97,8 +97,11 @@ class LabelPath {
   void relax(int k, int label, int s) {
     const int same = slot(k - 1, label);
     if (same >= 0) offer(k, s, cost_[k - 1][same] + edge_cost(k, label), {k - 1, label});
-    const int before = segment_start_[k];
-    if (before < 0) return;
+    // Segments that become long enough with this very edge; longer ones with the same start go on from them.
+    for (int before = segment_start_[k - 1] + 1; before <= segment_start_[k]; ++before) begin_segment(before, k, label, s);
+  }
+  /// The edges after `before`, up to k, are a segment of their own.
+  void begin_segment(int before, int k, int label, int s) {
     double segment = kInfinite;
     for (int turn = -2; turn <= 1; ++turn) {
       if (turn == 0) continue;

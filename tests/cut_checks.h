@@ -1,0 +1,104 @@
+// What the tests of the road that cuts share: aligned charts of generated atlases, and what every divided mesh must hold.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include "align/align.h"
+#include "charts.h"
+#include "geometry/plane.h"
+#include "geometry/predicates.h"
+#include "geometry/split_mesh.h"
+#include "shapes.h"
+
+namespace atlas_refine::testing {
+
+inline double rest_area(const Chart& chart) {
+  return std::accumulate(chart.rest.begin(), chart.rest.end(), 0.0,
+                         [](double sum, const RestTriangle& rest) { return sum + rest.area; });
+}
+
+inline Chart chart_of(const shapes::Polygon& polygon, double edge_length = 0.08) {
+  return charts_of(shapes::mesh(polygon, edge_length)).front();
+}
+
+/// The named polygons and a few random ones.
+inline std::vector<shapes::Named> many_polygons() {
+  std::vector<shapes::Named> out = shapes::named_polygons();
+  for (int seed = 0; seed < 3; ++seed) {
+    out.push_back({"random " + std::to_string(seed), shapes::random_polygon(seed)});
+    out.push_back({"random star " + std::to_string(seed), shapes::random_star_polygon(seed)});
+  }
+  return out;
+}
+
+/// All of `charts` after stage 1.
+inline std::vector<AxisAlignedChart> aligned(const std::vector<Chart>& charts, double sigma = 0.01) {
+  Monitor monitor;
+  return align_charts(charts, {sigma, 1}, monitor);
+}
+
+/// Neighbours know each other, share the vertices of their side, and every vertex has one fan of all its triangles.
+inline void expect_conforming(const SplitMesh& mesh) {
+  std::vector<std::set<int>> around(mesh.vertex_count());
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const Side side{t, k};
+      around[mesh.from(side)].insert(t);
+      if (mesh.is_boundary(side)) continue;
+      const Side twin = mesh.twin(side);
+      ASSERT_EQ(twin.triangle, mesh.neighbours[t][k]);
+      ASSERT_EQ(mesh.from(twin), mesh.to(side));
+      ASSERT_EQ(mesh.to(twin), mesh.from(side));
+      ASSERT_EQ(mesh.twin(twin).triangle, t);
+    }
+  }
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (around[v].empty()) continue;
+    std::set<int> fan;
+    for (const Side& s : mesh.fan(v)) {
+      ASSERT_EQ(mesh.from(s), v);
+      fan.insert(s.triangle);
+    }
+    ASSERT_EQ(fan, around[v]) << "vertex " << v << " has several fans";
+  }
+}
+
+inline void expect_positive(const std::vector<Vec2>& uvs, const std::vector<Triangle>& triangles) {
+  for (const Triangle& t : triangles) ASSERT_EQ(orientation(uvs[t[0]], uvs[t[1]], uvs[t[2]]), 1);
+}
+
+/// The UVs that the supports' vertices give, where nothing has moved since.
+inline Vec2 supported(const std::vector<Vec2>& uvs, const Support& support) {
+  Vec2 sum = Vec2::Zero();
+  for (int k = 0; k < 3; ++k) {
+    if (support.vertices[k] >= 0) sum += support.weights[k] * uvs[support.vertices[k]];
+  }
+  return sum;
+}
+
+/// Edge i of the boundary runs along quarter_turns[i], to the last bit; the turns add up to one.
+inline void expect_axis_aligned(const AxisAlignedChart& chart) {
+  const int n = static_cast<int>(chart.boundary.size());
+  ASSERT_EQ(chart.quarter_turns.size(), chart.boundary.size());
+  int sum = 0;
+  for (int i = 0; i < n; ++i) {
+    const Vec2 edge = chart.mesh.uvs[chart.boundary[(i + 1) % n]] - chart.mesh.uvs[chart.boundary[i]];
+    const int direction = ((chart.quarter_turns[i] % 4) + 4) % 4;
+    EXPECT_EQ(edge[1 - direction % 2], 0);
+    EXPECT_GT(direction < 2 ? edge[direction % 2] : -edge[direction % 2], 0);
+    const int before = i > 0 ? chart.quarter_turns[i - 1] : chart.quarter_turns[n - 1] - 4;
+    const int turn = chart.quarter_turns[i] - before;
+    EXPECT_LE(turn, 1);
+    EXPECT_GE(turn, -2);
+    sum += turn;
+  }
+  EXPECT_EQ(sum, 4);
+}
+
+}  // namespace atlas_refine::testing
