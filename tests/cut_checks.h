@@ -11,9 +11,11 @@
 
 #include "align/align.h"
 #include "charts.h"
+#include "cut/cut_charts.h"
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
 #include "geometry/split_mesh.h"
+#include "layout/search_layout.h"
 #include "shapes.h"
 
 namespace atlas_refine::testing {
@@ -99,6 +101,74 @@ inline void expect_axis_aligned(const AxisAlignedChart& chart) {
     sum += turn;
   }
   EXPECT_EQ(sum, 4);
+}
+
+/// A cube of n x n quads on each of five sides, cut along all its edges: charts that share their borders in space.
+inline Atlas open_box(int n) {
+  Atlas atlas;
+  atlas.face_offsets = {0};
+  std::map<std::array<int, 3>, int> index;
+  const std::array<std::array<Vec3, 3>, 5> sides = {{{Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 1, 0)},
+                                                     {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)},
+                                                     {Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1)},
+                                                     {Vec3(0, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)},
+                                                     {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1)}}};
+  const std::array<Vec3, 5> starts = {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(0, 0, 0)};
+  for (int side = 0; side < 5; ++side) {
+    const auto corner = [&](int i, int j) {
+      const Vec3 p = starts[side] * n + i * sides[side][1] + j * sides[side][2];
+      const std::array<int, 3> key = {static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())),
+                                      static_cast<int>(std::lround(p.z()))};
+      const auto [at, added] = index.try_emplace(key, static_cast<int>(atlas.positions.size()));
+      if (added) atlas.positions.push_back(p / n);
+      atlas.corner_vertices.push_back(at->second);
+      // Bent into an arc, so that charts leave their box half empty.
+      const double angle = 2.0 * i / n, radius = 1.3 - 0.9 * j / n;
+      atlas.corner_uvs.push_back(Vec2(4.0 * side, 0) + radius * Vec2(-std::cos(angle), std::sin(angle)));
+    };
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) {
+        for (const auto& [di, dj] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)}) corner(i + di, j + dj);
+        std::reverse(atlas.corner_vertices.end() - 4, atlas.corner_vertices.end());
+        std::reverse(atlas.corner_uvs.end() - 4, atlas.corner_uvs.end());
+        atlas.face_offsets.push_back(atlas.corner_count());
+      }
+    }
+  }
+  return atlas;
+}
+
+/// An atlas on its way to rectangles.
+struct Laid {
+  Atlas atlas;
+  ChartSet set;
+  std::vector<AxisAlignedChart> aligned;
+  Layout layout;
+  CutCharts cut;
+};
+
+inline LayoutOptions layout_options(double pe_bound, int threads = 1) {
+  return {.pe_bound = pe_bound, .gaps = {Gap{}, Gap{0.6 * Gap{}.value}}, .rectangles = {.candidates = 60}, .threads = threads};
+}
+
+inline Laid laid(const Atlas& atlas, double pe_bound = 0.8, double sigma = 0.01) {
+  Laid out{atlas, split_charts(atlas), {}, {}, {}};
+  Monitor monitor;
+  out.aligned = aligned(out.set.charts, sigma);
+  out.layout = search_layout(out.aligned, out.set.charts, layout_options(pe_bound), monitor);
+  out.cut = cut_charts(out.aligned, out.set.charts, out.layout.trails, space_points(atlas, out.set));
+  return out;
+}
+
+/// Generated atlases of one chart, of many, overlapping, with holes, of polygons, and with shared borders in space.
+inline std::vector<Atlas> many_atlases() {
+  std::vector<Atlas> out;
+  for (const shapes::Named& shape : many_polygons()) out.push_back(shapes::mesh(shape.polygon, 0.12));
+  out.push_back(shapes::self_overlapping());
+  out.push_back(shapes::disk_in_ring());
+  out.push_back(shapes::combine({shapes::mesh(shapes::star(), 0.12), shapes::mirrored(shapes::mesh(shapes::c_shape(), 0.12))}));
+  out.push_back(open_box(5));
+  return out;
 }
 
 }  // namespace atlas_refine::testing
