@@ -1,0 +1,53 @@
+// Restoring: fewer vertices, the same surface, nothing flipped, the border untouched.
+#include "cut/restore_faces.h"
+
+#include "cut_checks.h"
+
+namespace atlas_refine {
+namespace {
+
+std::vector<std::pair<Vec2, int>> border(const CutPiece& piece) {
+  std::vector<std::pair<Vec2, int>> out;
+  for (const auto& loop : piece.mesh.boundary_loops) {
+    for (int v : loop) out.emplace_back(piece.mesh.uvs[v], piece.points[v]);
+  }
+  return out;
+}
+
+TEST(RestoreFaces, RemovesVerticesAndKeepsTheRest) {
+  int removed_in_all = 0;
+  for (const Atlas& atlas : testing::many_atlases()) {
+    testing::Laid laid = testing::laid(atlas);
+    for (CutPiece& piece : laid.cut.pieces) {
+      const CutPiece before = piece;
+      const Chart& source = laid.set.charts[piece.chart];
+      const int removed = restore_faces(piece, source, 1);
+      removed_in_all += removed;
+      EXPECT_EQ(piece.mesh.vertex_count(), before.mesh.vertex_count() - removed);
+      EXPECT_EQ(piece.mesh.triangles.size(), before.mesh.triangles.size() - 2 * removed);
+      EXPECT_NEAR(testing::rest_area(piece.mesh), testing::rest_area(before.mesh), 1e-10);
+      EXPECT_NEAR(uv_area({piece.mesh}), uv_area({before.mesh}), 1e-10);
+      testing::expect_positive(piece.mesh.uvs, piece.mesh.triangles);
+      testing::expect_conforming(SplitMesh(piece.mesh));
+      EXPECT_TRUE(border(piece) == border(before));
+      for (std::size_t t = 0; t < piece.mesh.triangles.size(); ++t) {
+        const Triangle& v = piece.mesh.triangles[t];
+        EXPECT_EQ(piece.mesh.triangle_faces[t], source.triangle_faces[piece.sources[t]]);
+        const RestTriangle rest =
+            rest_of_part(source, piece.sources[t], {piece.supports[v[0]], piece.supports[v[1]], piece.supports[v[2]]});
+        EXPECT_NEAR(rest.area, piece.mesh.rest[t].area, 1e-12);
+      }
+    }
+  }
+  EXPECT_GT(removed_in_all, 20);
+}
+
+TEST(RestoreFaces, AnUndividedChartHasNothingToRestore) {
+  testing::Laid laid = testing::laid(shapes::mesh(shapes::rectangle(1, 0.7), 0.1));
+  CutPiece& piece = laid.cut.pieces.front();
+  restore_faces(piece, laid.set.charts.front(), 1);
+  EXPECT_EQ(restore_faces(piece, laid.set.charts.front(), 1), 0);
+}
+
+}  // namespace
+}  // namespace atlas_refine

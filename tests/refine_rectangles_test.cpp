@@ -1,0 +1,278 @@
+// The road that cuts as a whole, on generated atlases, by the public measures of its output mesh.
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "cut_checks.h"
+#include "refine_checks.h"
+#include "small_atlases.h"
+#include "support/rng.h"
+
+namespace atlas_refine {
+namespace {
+
+using testing::refusal;
+using testing::same_bits;
+
+RefineOptions rectangles(double pe_bound = 0.8) {
+  RefineOptions options;
+  options.pe_bound = pe_bound;
+  options.seams = Seams::Rectangles;
+  options.rectangles.candidates = 40;
+  return options;
+}
+
+/// The mesh that the result describes; the input's where nothing was cut.
+Atlas output(const Atlas& atlas, const RefineResult& result) {
+  Atlas out = atlas;
+  out.corner_uvs = result.corner_uvs;
+  if (!result.cut) return out;
+  out.face_offsets = result.cut->face_offsets;
+  out.corner_vertices = result.cut->corner_vertices;
+  for (const NewVertex& vertex : result.cut->new_vertices) {
+    Vec3 sum = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) sum += vertex.weights[k] * atlas.positions[atlas.corner_vertices[vertex.corners[k]]];
+    out.positions.push_back(sum);
+  }
+  return out;
+}
+
+void expect_sound_output(const Atlas& atlas, const RefineResult& result, const RefineOptions& options) {
+  const Atlas after = output(atlas, result);
+  const Validity validity = validate(after);
+  EXPECT_TRUE(validity.valid()) << validity.problem;
+  const Measures before = measure(atlas, options.box_aspect), m = measure(after, options.box_aspect);
+  EXPECT_TRUE(result.bound_met);
+  EXPECT_GE(m.pe_fixed_aspect, options.pe_bound);
+  EXPECT_EQ(m.pe, result.after.pe);
+  EXPECT_NEAR(m.distortion, result.after.distortion, 1e-6 * m.distortion);
+  EXPECT_EQ(m.chart_count, result.after.chart_count);
+  EXPECT_GE(m.seam_edges, before.seam_edges);
+  EXPECT_GE(m.boundary_length, before.boundary_length - 1e-9);
+  EXPECT_GE(result.after.distortion_to_input, 1 - 1e-9);
+  if (m.chart_count > 1 && result.gap.value > 0) {
+    EXPECT_GE(testing::gap_in_unit(m, result.gap, options.box_aspect), result.gap.value * (1 - 1e-9));
+  }
+  if (result.intervention == Intervention::Unchanged) return;
+  for (const Vec2& uv : after.corner_uvs) {
+    EXPECT_GE(uv.minCoeff(), 0);
+    EXPECT_LE(uv.maxCoeff(), 1);
+  }
+}
+
+RefineResult refine_soundly(const Atlas& atlas, const RefineOptions& options) {
+  try {
+    RefineResult result = refine(atlas, options);
+    expect_sound_output(atlas, result, options);
+    return result;
+  } catch (const RefineError& error) {
+    ADD_FAILURE() << to_string(error.code()) << ": " << error.what();
+    RefineResult result;
+    result.corner_uvs = atlas.corner_uvs;
+    return result;
+  }
+}
+
+/// A shape that must be cut, its input distorted.
+Atlas star(double bend = 0.5) { return shapes::mesh(shapes::star(), 0.1, bend); }
+
+Atlas comb(double bend) { return shapes::mesh(shapes::comb(), 0.1, bend); }
+
+Atlas part_of(const Atlas& atlas, const std::vector<int>& sources, const std::function<bool(int)>& wanted) {
+  Atlas out;
+  out.positions = atlas.positions;
+  out.face_offsets = {0};
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    if (!wanted(sources[f])) continue;
+    for (int c = atlas.face_offsets[f]; c < atlas.face_offsets[f + 1]; ++c) {
+      out.corner_vertices.push_back(atlas.corner_vertices[c]);
+      out.corner_uvs.push_back(atlas.corner_uvs[c]);
+    }
+    out.face_offsets.push_back(out.corner_count());
+  }
+  return out;
+}
+
+TEST(RefineRectangles, EveryAtlasReachesTheBound) {
+  const std::vector<Atlas> atlases = testing::many_atlases();
+  for (std::size_t k = 0; k < atlases.size(); ++k) {
+    SCOPED_TRACE("atlas " + std::to_string(k));
+    const RefineResult result = refine_soundly(atlases[k], rectangles());
+    EXPECT_TRUE(result.rectangles.has_value());
+    EXPECT_LT(result.after.distortion, std::max(1.1, 1.02 * result.before.distortion));
+  }
+}
+
+TEST(RefineRectangles, RandomPolygonsAtHigherBoundsAndFixedAspects) {
+  for (int seed = 10; seed < 22; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    RefineOptions options = rectangles(seed % 2 == 0 ? 0.85 : 0.8);
+    options.box_aspect = seed % 3 == 0 ? 1 : 0;
+    options.stored = seed % 4 == 0 ? Stored::Float32 : Stored::Double;
+    const shapes::Polygon polygon = seed % 2 == 0 ? shapes::random_polygon(seed) : shapes::random_star_polygon(seed);
+    refine_soundly(shapes::mesh(polygon, 0.1), options);
+  }
+}
+
+TEST(RefineRectangles, SeveralChartsTogether) {
+  std::vector<Atlas> parts;
+  for (int k = 0; k < 5; ++k) {
+    const shapes::Polygon polygon = k % 2 == 0 ? shapes::random_polygon(40 + k) : shapes::random_star_polygon(40 + k);
+    parts.push_back(shapes::mesh(shapes::transformed(polygon, 0.5 + 0.2 * k, k, {3.0 * k, 0}), 0.15));
+  }
+  const Atlas atlas = shapes::combine(parts);
+  refine_soundly(atlas, rectangles(0.85));
+  RefineOptions keep = rectangles(0.8);
+  keep.density = Density::Keep;
+  refine_soundly(atlas, keep);
+}
+
+TEST(RefineRectangles, AnAtlasAtTheBoundIsUnchanged) {
+  const Atlas atlas = shapes::mesh(shapes::rectangle(1, 0.7), 0.1);
+  const RefineResult result = refine(atlas, rectangles());
+  EXPECT_EQ(result.intervention, Intervention::Unchanged);
+  EXPECT_FALSE(result.cut.has_value());
+  EXPECT_TRUE(same_bits(result.corner_uvs, atlas.corner_uvs));
+}
+
+TEST(RefineRectangles, AStatedGapIsKept) {
+  RefineOptions options = rectangles();
+  for (const Gap& gap : {Gap{0.004}, Gap{4.0 / 512, Gap::Unit::LongSide}, Gap{0}}) {
+    options.gap = gap;
+    const RefineResult result = refine_soundly(star(), options);
+    EXPECT_EQ(result.gap.value, gap.value);
+  }
+}
+
+TEST(RefineRectangles, ThreadsChangeNoBit) {
+  const Atlas atlas = shapes::combine({star(), shapes::mesh(shapes::transformed(shapes::comb(), 1, 0, {2, 0}), 0.1)});
+  RefineOptions options = rectangles();
+  options.threads = 1;
+  const RefineResult one = refine(atlas, options);
+  options.threads = 2;
+  const RefineResult two = refine(atlas, options);
+  ASSERT_TRUE(one.cut && two.cut);
+  EXPECT_EQ(one.cut->corner_vertices, two.cut->corner_vertices);
+  EXPECT_TRUE(same_bits(one.corner_uvs, two.corner_uvs));
+}
+
+// ---- properties ----
+
+TEST(RefineRectangles, AQuarterTurnAndAScaleOfTheUvs) {
+  Atlas atlas = comb(1);
+  for (Vec2& uv : atlas.corner_uvs) uv = 37 * Vec2(-uv.y(), uv.x()) + Vec2(5, -3);
+  const RefineResult result = refine_soundly(atlas, rectangles());
+  EXPECT_LE(result.after.distortion, 1.001 * result.before.distortion);
+}
+
+TEST(RefineRectangles, AUniformScaleOfTheSurface) {
+  Atlas atlas = star();
+  for (Vec3& p : atlas.positions) p *= 1e4;
+  refine_soundly(atlas, rectangles());
+  for (Vec3& p : atlas.positions) p *= 1e-9;
+  refine_soundly(atlas, rectangles());
+}
+
+TEST(RefineRectangles, PermutedFaces) {
+  const Atlas atlas = shapes::combine({star(), shapes::mesh(shapes::transformed(shapes::c_shape(), 1, 0, {2, 0}), 0.1)});
+  std::vector<int> order(atlas.face_count());
+  for (int f = 0; f < atlas.face_count(); ++f) order[f] = f;
+  Rng rng(3);
+  for (int f = atlas.face_count() - 1; f > 0; --f) std::swap(order[f], order[rng.below(f + 1)]);
+  Atlas permuted;
+  permuted.positions = atlas.positions;
+  permuted.face_offsets = {0};
+  for (int f : order) {
+    const int begin = atlas.face_offsets[f], count = atlas.face_offsets[f + 1] - begin, turn = f % count;
+    for (int k = 0; k < count; ++k) {
+      permuted.corner_vertices.push_back(atlas.corner_vertices[begin + (k + turn) % count]);
+      permuted.corner_uvs.push_back(atlas.corner_uvs[begin + (k + turn) % count]);
+    }
+    permuted.face_offsets.push_back(permuted.corner_count());
+  }
+  refine_soundly(permuted, rectangles());
+}
+
+TEST(RefineRectangles, PolygonFacesAndMirroredCharts) {
+  Atlas atlas = shapes::quad_grid(12, 4);
+  for (Vec2& uv : atlas.corner_uvs) {
+    const double angle = 2.2 * uv.x(), radius = 0.7 - uv.y();
+    uv = {-radius * std::cos(angle), radius * std::sin(angle)};
+  }
+  refine_soundly(atlas, rectangles());
+  const RefineResult one = refine_soundly(atlas, rectangles()), other = refine_soundly(shapes::mirrored(atlas), rectangles());
+  EXPECT_NE(one.charts[0].mirrored, other.charts[0].mirrored);
+  EXPECT_EQ(one.repairs.size() + other.repairs.size(), 1u);
+  EXPECT_NEAR(one.after.distortion, other.after.distortion, 0.02);
+}
+
+// ---- options ----
+
+TEST(RefineRectangles, ValuesOutOfRangeAreRefused) {
+  const auto expect_bad = [](const std::function<void(RefineOptions&)>& change) {
+    RefineOptions options = rectangles();
+    change(options);
+    EXPECT_EQ(refusal(unit_square(), options).code(), ErrorCode::BadOption);
+  };
+  for (const double sigma : {0.0, -0.1, 0.11, std::nan("")}) expect_bad([&](RefineOptions& o) { o.rectangles.sigma = sigma; });
+  for (const double omega : {-0.01, 1.01, std::nan("")}) expect_bad([&](RefineOptions& o) { o.rectangles.omega = omega; });
+  for (const int count : {0, -1, 1000001}) expect_bad([&](RefineOptions& o) { o.rectangles.candidates = count; });
+  for (const double weight : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+    expect_bad([&](RefineOptions& o) { o.importance = {1, weight}; });
+  expect_bad([](RefineOptions& o) { o.importance = {1}; });
+  expect_bad([](RefineOptions& o) { o.importance = {1, 1, 1}; });
+}
+
+TEST(RefineRectangles, UntilTheBoundTheDistortionFalls) {
+  for (const double bound : {0.7, 0.9}) {
+    RefineOptions options = rectangles(bound);
+    const RefineResult enough = refine_soundly(comb(2), options);
+    EXPECT_LT(enough.after.distortion, enough.before.distortion);
+    options.rectangles.until_bound = true;
+    const RefineResult all = refine_soundly(comb(2), options);
+    EXPECT_LT(all.after.distortion, enough.after.distortion);
+    EXPECT_LT(all.after.pe, enough.after.pe);
+  }
+}
+
+TEST(RefineRectangles, TheInputAsReferenceIsKeptCloser) {
+  RefineOptions options = rectangles();
+  options.rectangles.until_bound = true;
+  const RefineResult surface = refine_soundly(star(1.2), options);
+  options.reference = Reference::Input;
+  const RefineResult input = refine_soundly(star(1.2), options);
+  EXPECT_LT(input.after.distortion_to_input, surface.after.distortion_to_input);
+  EXPECT_GT(input.after.distortion, surface.after.distortion);
+}
+
+TEST(RefineRectangles, HeavyFacesAreDistortedLess) {
+  const Atlas atlas = star();
+  const auto heavy = [&](int face) { return 4 * face < atlas.face_count(); };
+  RefineOptions options = rectangles(0.9);
+  options.rectangles.until_bound = true;
+  const auto heavy_distortion = [&] {
+    const RefineResult result = refine_soundly(atlas, options);
+    return measure(part_of(output(atlas, result), result.cut->face_sources, heavy)).distortion;
+  };
+  const double equal = heavy_distortion();
+  for (int f = 0; f < atlas.face_count(); ++f) options.importance.push_back(heavy(f) ? 50 : 1);
+  EXPECT_LT(heavy_distortion(), equal);
+}
+
+TEST(RefineRectangles, FewerCandidatesThanChains) {
+  RefineOptions options = rectangles();
+  options.rectangles.candidates = 1;
+  refine_soundly(star(), options);
+}
+
+TEST(RefineRectangles, TinyInputs) {
+  for (const int quads : {1, 2, 5}) {
+    Atlas atlas = strip(quads);
+    for (Vec2& uv : atlas.corner_uvs) uv = {uv.x() + 0.9 * uv.y(), uv.y()};  // sheared
+    refine_soundly(atlas, rectangles());
+  }
+  refine_soundly(flat_atlas({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}), rectangles(0.4));
+}
+
+}  // namespace
+}  // namespace atlas_refine

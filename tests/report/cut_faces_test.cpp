@@ -1,0 +1,127 @@
+// The output mesh of a cut: corners, sources and weights fit together, the surface stays closed, faces keep their winding.
+#include "report/cut_faces.h"
+
+#include <Eigen/Geometry>
+
+#include "cut/restore_faces.h"
+#include "cut_checks.h"
+
+namespace atlas_refine {
+namespace {
+
+using testing::Laid;
+
+CutFaces faces_of(const Laid& laid) { return cut_faces(laid.atlas, laid.set, laid.cut); }
+
+Vec3 area_vector(const std::vector<Vec3>& positions, const std::vector<int>& corners, int begin, int end) {
+  Vec3 sum = Vec3::Zero();
+  for (int c = begin; c < end; ++c) {
+    const int next = c + 1 < end ? c + 1 : begin;
+    sum += 0.5 * (positions[corners[c]] - positions[corners[begin]]).cross(positions[corners[next]] - positions[corners[begin]]);
+  }
+  return sum;
+}
+
+TEST(CutFaces, CornersSourcesAndWeightsFitTogether) {
+  for (const Atlas& atlas : testing::many_atlases()) {
+    const Laid laid = testing::laid(atlas);
+    const CutFaces out = faces_of(laid);
+    const int faces = static_cast<int>(out.mesh.face_sources.size()), old_vertices = static_cast<int>(atlas.positions.size());
+    ASSERT_EQ(static_cast<int>(out.mesh.face_offsets.size()), faces + 1);
+    ASSERT_EQ(out.mesh.corner_vertices.size(), out.corners.size());
+    ASSERT_EQ(out.positions.size(), atlas.positions.size() + out.mesh.new_vertices.size());
+    EXPECT_TRUE(std::is_sorted(out.mesh.face_sources.begin(), out.mesh.face_sources.end()));
+    for (int v = 0; v < old_vertices; ++v) EXPECT_EQ(out.positions[v], atlas.positions[v]);
+    for (std::size_t k = 0; k < out.mesh.new_vertices.size(); ++k) {
+      const NewVertex& vertex = out.mesh.new_vertices[k];
+      EXPECT_GE(vertex.weights.minCoeff(), 0);
+      EXPECT_NEAR(vertex.weights.sum(), 1, 1e-12);
+      Vec3 there = Vec3::Zero();
+      for (int j = 0; j < 3; ++j) {
+        ASSERT_GE(vertex.corners[j], 0);
+        there += vertex.weights[j] * atlas.positions[atlas.corner_vertices[vertex.corners[j]]];
+      }
+      EXPECT_LT((there - out.positions[old_vertices + k]).norm(), 1e-12);
+      const auto face = [&](int c) { return std::upper_bound(atlas.face_offsets.begin(), atlas.face_offsets.end(), c); };
+      EXPECT_EQ(face(vertex.corners[0]), face(vertex.corners[1]));
+      EXPECT_EQ(face(vertex.corners[0]), face(vertex.corners[2]));
+    }
+    std::vector<int> used(out.positions.size(), 0);
+    for (int v : out.mesh.corner_vertices) ++used[v];
+    for (std::size_t v = old_vertices; v < used.size(); ++v) EXPECT_GT(used[v], 0) << "a new vertex without a face";
+  }
+}
+
+TEST(CutFaces, FacesKeepAreaAndWindingInSpace) {
+  for (const Atlas& atlas : testing::many_atlases()) {
+    const CutFaces out = faces_of(testing::laid(atlas));
+    std::vector<Vec3> before, after(atlas.face_count(), Vec3::Zero());
+    for (int f = 0; f < atlas.face_count(); ++f)
+      before.push_back(area_vector(atlas.positions, atlas.corner_vertices, atlas.face_offsets[f], atlas.face_offsets[f + 1]));
+    for (std::size_t f = 0; f < out.mesh.face_sources.size(); ++f) {
+      const Vec3 part =
+          area_vector(out.positions, out.mesh.corner_vertices, out.mesh.face_offsets[f], out.mesh.face_offsets[f + 1]);
+      const int source = out.mesh.face_sources[f];
+      EXPECT_GT(part.dot(before[source]), 0) << "wound against the input";
+      after[source] += part;
+    }
+    for (int f = 0; f < atlas.face_count(); ++f) EXPECT_LT((after[f] - before[f]).norm(), 1e-9 * before[f].norm() + 1e-15);
+  }
+}
+
+std::map<std::pair<int, int>, int> edge_uses(const std::vector<int>& offsets, const std::vector<int>& corners) {
+  std::map<std::pair<int, int>, int> uses;
+  for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
+    for (int c = offsets[f]; c < offsets[f + 1]; ++c)
+      ++uses[std::minmax(corners[c], corners[c + 1 < offsets[f + 1] ? c + 1 : offsets[f]])];
+  }
+  return uses;
+}
+
+double border_length(const std::vector<Vec3>& positions, const std::map<std::pair<int, int>, int>& uses) {
+  double sum = 0;
+  for (const auto& [edge, used] : uses) {
+    EXPECT_LE(used, 2);
+    if (used == 1) sum += (positions[edge.first] - positions[edge.second]).norm();
+  }
+  return sum;
+}
+
+TEST(CutFaces, TheSurfaceStaysClosedAlsoAfterFacesAreRestored) {
+  for (const Atlas& atlas : testing::many_atlases()) {
+    Laid laid = testing::laid(atlas);
+    const double before = border_length(atlas.positions, edge_uses(atlas.face_offsets, atlas.corner_vertices));
+    for (int round = 0; round < 2; ++round) {
+      const CutFaces out = faces_of(laid);
+      EXPECT_NEAR(border_length(out.positions, edge_uses(out.mesh.face_offsets, out.mesh.corner_vertices)), before, 1e-9);
+      for (CutPiece& piece : laid.cut.pieces) restore_faces(piece, laid.set.charts[piece.chart], 1);
+    }
+  }
+}
+
+TEST(CutFaces, FacesThatNothingCrossesKeepTheirCorners) {
+  int untouched = 0;
+  for (const Atlas& atlas : testing::many_atlases()) {
+    const CutFaces out = faces_of(testing::laid(atlas));
+    std::vector<int> parts(atlas.face_count(), 0);
+    for (int f : out.mesh.face_sources) ++parts[f];
+    EXPECT_EQ(std::count(parts.begin(), parts.end(), 0), 0) << "a face is lost";
+    for (std::size_t f = 0; f < out.mesh.face_sources.size(); ++f) {
+      const int source = out.mesh.face_sources[f];
+      if (parts[source] > 1) continue;
+      std::vector<int> old_corners;
+      for (int c = out.mesh.face_offsets[f]; c < out.mesh.face_offsets[f + 1]; ++c) {
+        const int v = out.mesh.corner_vertices[c];
+        if (v < static_cast<int>(atlas.positions.size())) old_corners.push_back(v);
+      }
+      const std::vector<int> expected(atlas.corner_vertices.begin() + atlas.face_offsets[source],
+                                      atlas.corner_vertices.begin() + atlas.face_offsets[source + 1]);
+      EXPECT_EQ(old_corners, expected);
+      ++untouched;
+    }
+  }
+  EXPECT_GT(untouched, 100);
+}
+
+}  // namespace
+}  // namespace atlas_refine
