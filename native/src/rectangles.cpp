@@ -63,7 +63,8 @@ class RectangleRoad {
     Gap wide = layout.gap;
     wide.value *= kFirstGap;
     const ReduceResult reduced = reduce(cut, wide, kFirstChange);
-    if (cut.seams.empty() && !(reduced.reached && reduced.energy <= kRelaxed * enough_)) return std::nullopt;
+    const bool relaxed = reduced.energy <= kRelaxed * enough_;
+    if (!reduced.reached || (cut.seams.empty() && !relaxed)) return std::nullopt;
     if (restore(cut) > 0) reduce(cut, layout.gap, kLastChange);
     return outcome_.certified_cut(set_, cut, layout.gap);
   }

@@ -187,13 +187,15 @@ class Aligner {
     aligned.uvs = uvs;
     double energy = dirichlet_sums(aligned).best_energy();
     if (!(energy < kTooDistorted)) return std::nullopt;
+    bool merged = false;
     for (const double tolerance : kSameLine) {
       aligned.uvs = merged_lines(uvs, boundary.vertices, out.quarter_turns, tolerance * sigma_ * boundary.perimeter());
       if (!positive(aligned, aligned.uvs) || dirichlet_sums(aligned).best_energy() - 1 > kMergeCost * (energy - 1)) continue;
       uvs = aligned.uvs;
+      merged = true;
       break;
     }
-    aligned.uvs = uvs;
+    if (!merged) return std::nullopt;  // two lines that cannot be told apart, and a hair of the chart between them
     const DirichletSums sums = dirichlet_sums(aligned);
     for (Vec2& uv : uvs) uv *= sums.best_scale();
     out.boundary = boundary.vertices;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace atlas_refine {
 namespace {
@@ -129,6 +130,36 @@ class Cutter {
     return static_cast<int>(out_.points.size()) - 1;
   }
 
+  /// Boundary sides along which a hole was cut open, each edge in space once.
+  std::vector<Side> opened_sides(int c) const {
+    if (aligned_[c].holes_cut == 0) return {};
+    std::set<std::pair<int, int>> natural;
+    for (const std::vector<int>& loop : sources_[c].boundary_loops) {
+      for (std::size_t k = 0; k < loop.size(); ++k) natural.insert(std::minmax(loop[k], loop[(k + 1) % loop.size()]));
+    }
+    std::set<std::pair<SpaceEdge, long>> seen;
+    std::vector<Side> out;
+    for (const auto& loop : meshes_[c].boundary_loops()) {
+      for (const Side& s : loop) {
+        if (natural.contains(chart_edge_of(c, s))) continue;
+        const SpaceEdge edge = edge_of(c, s);
+        const double middle = 0.5 * (along_of(c, meshes_[c].from(s), edge) + along_of(c, meshes_[c].to(s), edge));
+        if (seen.emplace(edge, std::lround(middle / kSamePlace)).second) out.push_back(s);
+      }
+    }
+    return out;
+  }
+  /// The edge of the input chart that a boundary side is part of.
+  std::pair<int, int> chart_edge_of(int c, const Side& s) const {
+    std::set<int> ends;
+    for (int v : {meshes_[c].from(s), meshes_[c].to(s)}) {
+      for (int w : meshes_[c].supports[v].vertices) {
+        if (w >= 0) ends.insert(w);
+      }
+    }
+    return {*ends.begin(), *ends.rbegin()};
+  }
+
   void take_apart(int c, const std::vector<TrailStart>& trails) {
     SplitMesh& mesh = meshes_[c];
     std::vector<char> on_boundary(mesh.vertex_count(), 0);
@@ -147,10 +178,9 @@ class Cutter {
         for (std::size_t k = 0; k + 1 < path.size(); ++k) cuts.push_back(mesh.find_side(path[k], path[k + 1]));
       }
     }
-    for (const Side& s : cuts) {
-      const auto end = [&](int v) { return points[v] >= 0 ? ~points[v] : mesh.supports[v].vertices[0]; };
-      out_.seams.push_back({c, {end(mesh.from(s)), end(mesh.to(s))}});
-    }
+    const auto end = [&](int v) { return points[v] >= 0 ? ~points[v] : mesh.supports[v].vertices[0]; };
+    for (const Side& s : opened_sides(c)) out_.seams.push_back({c, {end(mesh.from(s)), end(mesh.to(s))}});
+    for (const Side& s : cuts) out_.seams.push_back({c, {end(mesh.from(s)), end(mesh.to(s))}});
     for (int original : mesh.cut(cuts)) points.push_back(points[original]);
     add_pieces(c, points);
   }

@@ -11,6 +11,8 @@
 namespace atlas_refine {
 namespace {
 
+constexpr double kApart = 1e-4;  // extra corners keep so far from all lines, as a fraction of the boundary
+
 class QuadMeshMaker {
  public:
   QuadMeshMaker(const AxisAlignedChart& aligned, const Chart& source)
@@ -70,17 +72,30 @@ class QuadMeshMaker {
     std::vector<double> at(n + 1, 0);
     for (int i = 0; i < n; ++i)
       at[i + 1] = at[i] + (aligned_.mesh.uvs[aligned_.boundary[(i + 1) % n]] - aligned_.mesh.uvs[aligned_.boundary[i]]).norm();
+    const double apart = kApart * at[n];
     std::vector<int> places;
     for (int k = 0; k < count; ++k) {
       const double wanted = at[n] * (k + 0.5) / count;
       int best = -1;
       for (int i = 1; i < n; ++i) {
-        if (aligned_.quarter_turns[i] != aligned_.quarter_turns[i - 1]) continue;
+        if (aligned_.quarter_turns[i] != aligned_.quarter_turns[i - 1] || beside_a_line(i, places, apart)) continue;
         if (best < 0 || std::abs(at[i] - wanted) < std::abs(at[best] - wanted)) best = i;
       }
       if (best >= 0 && std::find(places.begin(), places.end(), best) == places.end()) places.push_back(best);
     }
     return places;
+  }
+
+  /// True where a trail from this place would run beside one of a corner, or of an extra corner that was chosen before.
+  bool beside_a_line(int i, const std::vector<int>& chosen, double apart) const {
+    const int axis = aligned_.quarter_turns[i] % 2 == 0 ? 0 : 1;
+    const double line = aligned_.mesh.uvs[aligned_.boundary[i]][axis];
+    for (int k = 0; k < static_cast<int>(aligned_.boundary.size()); ++k) {
+      const int before = k > 0 ? aligned_.quarter_turns[k - 1] : aligned_.quarter_turns.back() - 4;
+      const bool corner = aligned_.quarter_turns[k] != before || std::find(chosen.begin(), chosen.end(), k) != chosen.end();
+      if (corner && std::abs(aligned_.mesh.uvs[aligned_.boundary[k]][axis] - line) < apart) return true;
+    }
+    return false;
   }
 
   /// Vertices where trails begin, end or meet.
