@@ -21,8 +21,9 @@ namespace {
 constexpr double kRelaxed = 1.01;
 // Until faces are restored pieces are kept so much further apart than the gap, which leaves room for the last steps.
 constexpr double kFirstGap = 1.02;
-constexpr double kFirstChange = 1e-2;  // relative change of E_d - 1 at which the reduction before ends,
-constexpr double kLastChange = 2e-3;   // and the one after
+// Relative change of E_d at which the reduction before that ends, and the one after (the paper: 1e-4 for several iterations).
+constexpr double kFirstChange = 1e-4;
+constexpr double kLastChange = 2e-5;
 constexpr double kSpread = 1.01;
 
 class RectangleRoad {
@@ -99,7 +100,8 @@ class RectangleRoad {
                                 .box_aspect = options_.box_aspect,
                                 .pe_target = options_.pe_bound,
                                 .enough_distortion = to_the_end ? 0 : enough_,
-                                .least_change = least_change,
+                                .least_change = 0,
+                                .negligible = least_change,
                                 .max_distortion = options_.max_distortion.value_or(0),
                                 .threads = threads_};
     ReduceResult reduced = reduce_distortion(

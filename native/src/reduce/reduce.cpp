@@ -178,7 +178,8 @@ class Reduction {
 
   void count_progress(double energy_before, double pe_before) {
     const bool on_target = !bounded() || (std::abs(deficit()) < 1e-4 || (holds_bound() && price_ == 0));
-    const bool quiet = std::abs(energy_ - energy_before) < problem_.least_change * (energy_ - 1) + kNegligible && fraction_ > 0.1;
+    const bool quiet =
+        std::abs(energy_ - energy_before) < problem_.least_change * (energy_ - 1) + problem_.negligible && fraction_ > 0.1;
     calm_ = on_target && quiet && settled() ? calm_ + 1 : 0;
     expensive_ = price_ > problem_.max_price ? expensive_ + 1 : 0;
     distorted_ = !within_distortion() && quiet ? distorted_ + 1 : 0;

@@ -20,6 +20,7 @@ struct ReduceProblem {
   double pe_target = 0;              ///< in (0, 1), below or above the present PE; 0 = no box: least distortion in open space
   double enough_distortion = 0;      ///< stop as soon as the bound holds and E_d is at most this; 0 = go to the optimum
   double least_change = 2e-4;        ///< E_d is at its optimum where E_d - 1 changes by less, relative, twice in a row
+  double negligible = 1e-8;          ///< or by less than this
   double max_distortion = 0;         ///< give up the climb once the cheapest E_d at the present PE exceeds this; 0 = no limit
   double max_price = 0;              ///< give up the climb where lambda exceeds this below the target; 0 = no limit
   int max_iterations = 600;
