@@ -14,14 +14,16 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kSlack = 1.002;        // layouts are to hold so much more than the bound: stage 3 starts from them
-constexpr double kMoreThanGap = 1.2;    // kept beyond the gap: stage 3 starts with a little freedom
-constexpr double kLeastPadding = 2e-4;  // of the box diagonal, where no gap is asked for: borders must not touch
-constexpr double kLongestSides = 20;    // aspect of a rectangle; longer ones are long and narrow
-constexpr int kChains = 8;              // independent searches, so that threads do not change the result
-constexpr double kHot = 0.01;           // accepted loss of score at the start of a chain
-constexpr int kFinalists = 4;           // layouts whose packing is annealed
-constexpr int kAnnealing = 60000;       // position evaluations per finalist, shared by its rectangles
+constexpr double kSlack = 1.002;              // layouts are to hold so much more than the bound: stage 3 starts from them
+constexpr double kMoreThanGap = 1.2;          // kept beyond the gap: stage 3 starts with a little freedom
+constexpr double kLeastPadding = 2e-4;        // of the box diagonal, where no gap is asked for: borders must not touch
+constexpr double kLongestSides = 20;          // aspect of a rectangle; longer ones are long and narrow
+constexpr int kChains = 8;                    // independent searches, so that threads do not change the result
+constexpr double kHot = 0.01;                 // accepted loss of score at the start of a chain
+constexpr int kFinalists = 4;                 // layouts whose packing is annealed
+constexpr int kAnnealing = 60000;             // position evaluations per finalist, shared by its rectangles
+constexpr std::size_t kAffordable = 30000;    // rectangles packed in one later round,
+constexpr std::size_t kLeastCandidates = 24;  // in at least so many layouts
 constexpr int kExtraCorners[] = {4, 12, 32};
 
 /// What a layout is judged by.
@@ -58,7 +60,7 @@ class Search {
     for (std::size_t g = 0; g < options_.gaps.size(); ++g) {
       const Layout layout = search(options_.gaps[g], 0, static_cast<int>(g));
       if (best.pieces.empty() || layout.pe > best.pe) best = layout;
-      if (best.pe >= target()) return best;
+      if (best.pe >= target() || highest_pe() < target()) return best;
     }
     for (const int extra : kExtraCorners) {
       const Layout layout = search(options_.gaps.back(), extra, extra);
@@ -70,6 +72,15 @@ class Search {
 
  private:
   double target() const { return std::min(kSlack * options_.pe_bound, 0.5 * (1 + options_.pe_bound)); }
+
+  /// What no layout exceeds: the boxes of charts that are packed as they are hold more than the charts.
+  double highest_pe() const {
+    double boxes = area_;
+    for (const Decomposition& d : kept_) {
+      for (std::size_t k = 0; k < d.rectangles.size(); ++k) boxes += d.rectangles[k].area() - d.areas[k];
+    }
+    return area_ / boxes;
+  }
 
   Layout search(const Gap& gap, int extra_corners, int round) {
     quads_.clear();
@@ -114,7 +125,7 @@ class Search {
       if (!quads_[c].corners.empty()) corner_charts.push_back(static_cast<int>(c));
     }
     const int chains = corner_charts.empty() ? 1 : std::min(kChains, options_.rectangles.candidates);
-    const int steps = corner_charts.empty() ? 1 : options_.rectangles.candidates / chains;
+    const int steps = corner_charts.empty() ? 1 : std::max(1, candidates(round) / chains);
     std::vector<Candidate> best(chains);
     std::atomic<int> done = 0;
     parallel_ranges(chains, options_.threads, 1, [&](int begin, int end) {
@@ -130,6 +141,14 @@ class Search {
       for (int k = begin; k < end; ++k) pack_well(best[k], round, 10 + k);
     });
     return best;
+  }
+
+  /// The first round tries as many as were asked for; those after it that miss the bound fewer where there are many rectangles.
+  int candidates(int round) const {
+    std::size_t faces = 1;
+    for (const QuadMesh& quads : quads_) faces += quads.corners.size() + 1;
+    const int affordable = static_cast<int>(std::max<std::size_t>(kLeastCandidates, kAffordable / faces));
+    return round == 0 ? options_.rectangles.candidates : std::min(options_.rectangles.candidates, affordable);
   }
 
   Candidate run_chain(const std::vector<int>& corner_charts, int steps, Rng rng, bool greedy) const {
