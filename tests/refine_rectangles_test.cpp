@@ -1,4 +1,5 @@
 // The road that cuts as a whole, on generated atlases, by the public measures of its output mesh.
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -154,6 +155,64 @@ TEST(RefineRectangles, ThreadsChangeNoBit) {
   ASSERT_TRUE(one.cut && two.cut);
   EXPECT_EQ(one.cut->corner_vertices, two.cut->corner_vertices);
   EXPECT_TRUE(same_bits(one.corner_uvs, two.corner_uvs));
+}
+
+/// A wavy sheet of n x n quads and triangles, its charts random regions: with holes, pinched vertices, shared borders.
+Atlas random_regions(std::uint64_t seed) {
+  Rng rng(seed);
+  const int n = 4 + rng.below(6);
+  std::vector<int> label(n * n, -1), open;
+  for (int k = 0; k < 4; ++k) {
+    const int face = rng.below(n * n);
+    if (label[face] < 0) open.push_back(face);
+    label[face] = k;
+  }
+  while (!open.empty()) {
+    const int at = rng.below(static_cast<int>(open.size())), face = open[at], x = face % n, y = face / n;
+    std::vector<int> free;
+    for (const auto& [i, j] : {std::pair(x + 1, y), std::pair(x - 1, y), std::pair(x, y + 1), std::pair(x, y - 1)}) {
+      if (i >= 0 && j >= 0 && i < n && j < n && label[j * n + i] < 0) free.push_back(j * n + i);
+    }
+    if (free.empty()) {
+      open.erase(open.begin() + at);
+      continue;
+    }
+    const int next = free[rng.below(static_cast<int>(free.size()))];
+    label[next] = rng.uniform() < 0.06 ? 10 + next : label[face];
+    open.push_back(next);
+  }
+  Atlas atlas;
+  atlas.face_offsets = {0};
+  for (int y = 0; y <= n; ++y) {
+    for (int x = 0; x <= n; ++x) atlas.positions.push_back({1.0 * x, 1.0 * y, 0.4 * std::sin(x + 0.7 * y)});
+  }
+  const double shear = rng.uniform(-0.5, 0.5);
+  for (int f = 0; f < n * n; ++f) {
+    const int low = f / n * (n + 1) + f % n;
+    const std::array<int, 4> quad = {low, low + 1, low + n + 2, low + n + 1};
+    const auto add = [&](const std::vector<int>& corners) {
+      for (int k : corners) {
+        const Vec3& p = atlas.positions[quad[k]];
+        atlas.corner_vertices.push_back(quad[k]);
+        atlas.corner_uvs.push_back({p.x() + shear * p.y() + 40.0 * label[f], p.y() + 0.2 * std::cos(p.x())});
+      }
+      atlas.face_offsets.push_back(atlas.corner_count());
+    };
+    if (f % 3 == 0) {
+      add({0, 1, 2, 3});
+    } else {
+      add({1, 2, 3});
+      add({1, 3, 0});
+    }
+  }
+  return atlas;
+}
+
+TEST(RefineRectangles, RandomRegionsOfASheet) {
+  for (int seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    refine_soundly(random_regions(seed), rectangles(seed % 2 == 0 ? 0.8 : 0.88));
+  }
 }
 
 // ---- properties ----

@@ -123,5 +123,35 @@ TEST(CutFaces, FacesThatNothingCrossesKeepTheirCorners) {
   EXPECT_GT(untouched, 100);
 }
 
+TEST(CutFaces, EveryTornEdgeIsASeam) {
+  for (const Atlas& atlas : testing::many_atlases()) {
+    const Laid laid = testing::laid(atlas);
+    const CutFaces out = faces_of(laid);
+    std::set<std::pair<int, int>> seams;
+    for (const auto& seam : out.mesh.new_seams) seams.insert(std::minmax(seam[0], seam[1]));
+    EXPECT_EQ(seams.size(), out.mesh.new_seams.size());
+    // Edges between two faces of one chart of the input, whose corners are not the same vertices of one piece.
+    struct Use {
+      int chart;
+      std::array<std::pair<int, int>, 2> ends;
+    };
+    std::map<std::pair<int, int>, std::vector<Use>> uses;
+    for (std::size_t f = 0; f < out.mesh.face_sources.size(); ++f) {
+      const int begin = out.mesh.face_offsets[f], end = out.mesh.face_offsets[f + 1];
+      for (int c = begin; c < end; ++c) {
+        int a = c, b = c + 1 < end ? c + 1 : begin;
+        if (out.mesh.corner_vertices[a] > out.mesh.corner_vertices[b]) std::swap(a, b);
+        const auto corner = [&](int k) { return std::pair(out.corners[k].chart, out.corners[k].vertex); };
+        uses[{out.mesh.corner_vertices[a], out.mesh.corner_vertices[b]}].push_back(
+            {laid.cut.pieces[out.corners[c].chart].chart, {corner(a), corner(b)}});
+      }
+    }
+    for (const auto& [edge, both] : uses) {
+      if (both.size() != 2 || both[0].chart != both[1].chart) continue;
+      EXPECT_EQ(both[0].ends != both[1].ends, seams.contains(edge));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace atlas_refine
