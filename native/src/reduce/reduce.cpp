@@ -18,7 +18,9 @@ constexpr double kNegligible = 1e-8;   // a change of E_d that nobody can measur
 constexpr double kLeastPrice = 1e-3;   // the barrier is never softer than for this price
 constexpr double kMostFall = 0.01;  // log PE falls slowly from above the target: so much in one iteration, unless that is dear,
 constexpr double kFastFall = 0.03;  // while E_d - 1 is still so many times what is enough:
-constexpr double kFar = 4;
+constexpr double kMargin = 3;       // kept to the bound meanwhile: so many times what a step's PE was wrong by,
+constexpr double kMostMargin = 0.006;  // at most
+constexpr double kFar = 2;
 constexpr double kPressure = 1;          // the barrier is as firm as for this price per unit of E_d - 1,
 constexpr double kDearest = 8;           // or for a price up to so much more,
 constexpr double kMostRise = 4;          // E_d - 1 beyond so much of the start's: the charts are wedged
@@ -47,6 +49,8 @@ class Reduction {
     firmness_ = bounded() ? kFirmness : kOpenFirmness;
     update_pe();
     relaxing_ = bounded() && pe_ > problem_.pe_target;
+    margin_ = relaxing_ ? kMostMargin : 0;
+    if (relaxing_ && deficit() > -kNearTarget) firmness_ = kSoftFirmness;  // there already
     stiffness_ = firmness_ * least_price() * system_.range();
     if (relaxing_) stiffness_ *= system_.least_slack(state_);
   }
@@ -75,7 +79,7 @@ class Reduction {
   bool bounded() const { return system_.has_box(); }
   bool holds_bound() const { return !bounded() || pe_ >= problem_.pe_target; }
   /// log of target / PE, positive while the bound does not hold.
-  double deficit() const { return bounded() ? std::log(problem_.pe_target * (1 + kTargetSlack) / pe_) : 0; }
+  double deficit() const { return bounded() ? std::log(problem_.pe_target * (1 + kTargetSlack + margin_) / pe_) : 0; }
 
   void update_pe() {
     if (bounded()) pe_ = system_.tight_pe(state_);
@@ -120,6 +124,7 @@ class Reduction {
     const double own_gain = dot(system_.pe_gradient, step_), gain_per_price = dot(system_.pe_gradient, climb);
     price_ = std::max(0.0, (std::min(deficit(), climb_limit) - own_gain) / gain_per_price);
     if (relaxing_) price_ = std::max(price_, std::min(kDearest * least_price(), (-most_fall() - own_gain) / gain_per_price));
+    predicted_gain_ = own_gain + price_ * gain_per_price;
     for (std::size_t i = 0; i < step_.size(); ++i) step_[i] += price_ * climb[i];
     return true;
   }
@@ -150,7 +155,12 @@ class Reduction {
       fraction_ = fraction;
       break;
     }
+    const double pe_before = pe_;
     update_pe();
+    if (relaxing_) {
+      const double error = std::abs(std::log(pe_ / pe_before) - fraction_ * predicted_gain_);
+      margin_ = std::min(kMostMargin, std::max(0.5 * margin_, kMargin * error));
+    }
     adapt();
   }
 
@@ -218,7 +228,7 @@ class Reduction {
   ReduceSystem system_;
   ReduceState state_, best_;
   std::vector<Vec2> step_;
-  double first_energy_ = 0, energy_ = 0, pe_ = 0, price_ = 0, fraction_ = 1;
+  double first_energy_ = 0, margin_ = 0, predicted_gain_ = 0, energy_ = 0, pe_ = 0, price_ = 0, fraction_ = 1;
   double firmness_ = 0, stiffness_ = 0, damping_ = 1e-3;
   double best_energy_ = std::numeric_limits<double>::infinity(), best_pe_ = -1, best_price_ = 0;
   bool best_holds_ = false, relaxing_ = false;

@@ -55,7 +55,8 @@ struct ReduceResult {
   int iterations = 0;
 };
 
-/// Minimises E_d + barrier subject to log PE >= log target by projected Newton with one multiplier.
+/// Minimises E_d + barrier subject to log PE >= log target by projected Newton with one multiplier. From above the target the
+/// iterates keep a margin to it, and may still dip below by what PE of one step was wrong by; the result never does.
 /// Differs from Algorithm 2: the box sides are unknowns and PE is a constraint with a price instead of a growing scaffold box and
 /// the barrier of eq. (13); the gap is exact, the bound cannot be overstepped, and the start may lie below the bound.
 ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor& monitor = {});
