@@ -83,9 +83,9 @@ struct ChartReport {
 
 /// How the paper's road went; only with Intervention::Cut.
 struct RectangleReport {
-  int tutte_charts = 0;  ///< charts that Tutte's embedding onto a rectangle had to save: the deformation had failed
-  int boxed_charts = 0;  ///< charts packed by their bounding box as they were: too few triangles, or no disk
-  int holes_cut = 0;     ///< boundary loops that were joined to the outer one
+  int tutte_charts = 0;   ///< charts that Tutte's embedding onto a rectangle had to save: the deformation had failed
+  int boxed_charts = 0;   ///< charts packed by their bounding box as they were: too few triangles, or no disk
+  int holes_cut = 0;      ///< boundary loops that were joined to the outer one
   int extra_corners = 0;  ///< added to each chart because the bound was missed without
   int trails = 0;         ///< that the charts were cut along
   double packed_pe = 0;   ///< of the rectangles, before the distortion was reduced
