@@ -13,6 +13,7 @@
 #include "geometry/triangulate_polygon.h"
 #include "input/check_atlas.h"
 #include "input/join_edges.h"
+#include "support/disjoint_sets.h"
 
 namespace atlas_refine {
 
@@ -20,25 +21,6 @@ namespace {
 
 /// Weight of a face without a shape in space, as a fraction of the mean triangle: it must not count, and must not be zero.
 constexpr double kSliverWeight = 1e-6;
-
-/// Sets of corners that are united; the smallest corner stands for its set.
-class CornerSets {
- public:
-  explicit CornerSets(int count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0); }
-
-  int find(int corner) {
-    while (parents_[corner] != corner) corner = parents_[corner] = parents_[parents_[corner]];
-    return corner;
-  }
-  void unite(int a, int b) {
-    a = find(a);
-    b = find(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parents_;
-};
 
 class Splitter {
  public:
@@ -104,7 +86,7 @@ class Splitter {
 
   /// UV vertices: corners united across joined edges, so that each has one fan of faces.
   void number_vertices() {
-    CornerSets sets(atlas_.corner_count());
+    DisjointSets sets(atlas_.corner_count());
     for (int c = 0; c < atlas_.corner_count(); ++c) {
       const int partner = joins_.partners[c];
       if (partner < c) continue;

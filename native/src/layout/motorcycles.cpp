@@ -2,7 +2,8 @@
 #include "layout/motorcycles.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "support/disjoint_sets.h"
 
 namespace atlas_refine {
 namespace {
@@ -23,23 +24,6 @@ void choose(const QuadMesh& quads, int corner, MotorcycleGraph& graph, Rng& rng)
     if (rng.uniform() < kSpareTrail) graph.driven[t] = 1;
   }
 }
-
-class FaceSets {
- public:
-  explicit FaceSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0); }
-  int find(int face) {
-    while (parents_[face] != face) face = parents_[face] = parents_[parents_[face]];
-    return face;
-  }
-  void unite(int a, int b) {
-    a = find(a);
-    b = find(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parents_;
-};
 
 }  // namespace
 
@@ -95,7 +79,7 @@ Decomposition drive(const QuadMesh& quads, const MotorcycleGraph& graph) {
     for (std::size_t k = 0; k < trail.segments.size() && cut[trail.segments[k]]; ++k)
       passed[trail.nodes[k]] = passed[trail.nodes[k + 1]] = 1;
   }
-  FaceSets sets(quads.faces.size());
+  DisjointSets sets(quads.faces.size());
   for (std::size_t s = 0; s < quads.segments.size(); ++s) {
     if (!cut[s]) sets.unite(quads.segments[s].left, quads.segments[s].right);
   }
