@@ -29,6 +29,15 @@ double rounded_to_single(double value) {
   return stored;
 }
 
+/// "chart 3", "charts 3, 5", or how many they are.
+std::string charts_named(const std::vector<int>& charts) {
+  constexpr std::size_t kMostNamed = 6;
+  if (charts.size() > kMostNamed) return std::to_string(charts.size()) + " charts";
+  std::string text = charts.size() == 1 ? "chart" : "charts";
+  for (std::size_t k = 0; k < charts.size(); ++k) text += (k > 0 ? ", " : " ") + std::to_string(charts[k]);
+  return text;
+}
+
 std::vector<int> identity(std::size_t count) {
   std::vector<int> out(count);
   std::iota(out.begin(), out.end(), 0);
@@ -98,35 +107,38 @@ void Outcome::re_embedded(int chart) {
 void Outcome::squeezed(const Squeezed& squeezed) {
   result_.price = squeezed.outcome.price;
   result_.iterations += squeezed.iterations;
-  warn_of_gap(squeezed.gap);
+  warn_of_gap(squeezed.gap, result_.warnings);
 }
 
 void Outcome::aligned(const std::vector<AxisAlignedChart>& aligned) {
-  RectangleReport& report = result_.rectangles.emplace();
-  for (std::size_t c = 0; c < aligned.size(); ++c) {
-    const std::string chart = "chart " + std::to_string(c) + ": ";
-    report.tutte_charts += aligned[c].way == AxisAlignedChart::Way::Rectangle;
+  RectangleReport& report = cut_.report;
+  std::vector<int> opened, saved;
+  for (int c = 0; c < static_cast<int>(aligned.size()); ++c) {
+    if (aligned[c].holes_cut > 0) opened.push_back(c);
+    if (aligned[c].way == AxisAlignedChart::Way::Rectangle) saved.push_back(c);
     report.boxed_charts += aligned[c].way == AxisAlignedChart::Way::AsItIs;
     report.holes_cut += aligned[c].holes_cut;
-    if (aligned[c].holes_cut > 0)
-      result_.repairs.push_back(chart + std::to_string(aligned[c].holes_cut) + " holes cut open along shortest paths");
-    if (aligned[c].way == AxisAlignedChart::Way::Rectangle)
-      result_.warnings.push_back(chart + "could not be deformed to its axes; embedded onto a rectangle");
   }
+  report.tutte_charts = static_cast<int>(saved.size());
+  if (!opened.empty())
+    cut_.repairs.push_back(charts_named(opened) + ": " + std::to_string(report.holes_cut) +
+                           (report.holes_cut == 1 ? " hole" : " holes") + " cut open along shortest paths");
+  if (!saved.empty())
+    cut_.warnings.push_back(charts_named(saved) + ": could not be deformed to the axes; embedded onto a rectangle");
 }
 
 void Outcome::laid_out(const Layout& layout) {
-  RectangleReport& report = *result_.rectangles;
+  RectangleReport& report = cut_.report;
   for (const auto& trails : layout.trails) report.trails += static_cast<int>(trails.size());
   report.extra_corners = layout.extra_corners;
   report.packed_pe = layout.pe;
-  warn_of_gap(layout.gap);
+  warn_of_gap(layout.gap, cut_.warnings);
 }
 
-void Outcome::warn_of_gap(const Gap& gap) {
+void Outcome::warn_of_gap(const Gap& gap, std::vector<std::string>& warnings) const {
   if (options_.gap || gap.value >= Gap{}.value) return;
-  result_.warnings.push_back("the gap was reduced from " + number("%g", Gap{}.value) + " to " + number("%g", gap.value) +
-                             " of the box diagonal: the bound does not leave more");
+  warnings.push_back("the gap was reduced from " + number("%g", Gap{}.value) + " to " + number("%g", gap.value) +
+                     " of the box diagonal: the bound does not leave more");
 }
 
 void Outcome::show(const std::string& stage, const std::vector<Chart>& charts) {
@@ -176,6 +188,9 @@ RefineResult Outcome::certified_cut(const ChartSet& set, const CutCharts& cut, c
     }
   }
   result_.cut = std::move(faces.mesh);
+  result_.rectangles = cut_.report;
+  result_.repairs.insert(result_.repairs.end(), cut_.repairs.begin(), cut_.repairs.end());
+  result_.warnings.insert(result_.warnings.end(), cut_.warnings.begin(), cut_.warnings.end());
   return certify(Intervention::Cut, std::move(output), gap);
 }
 

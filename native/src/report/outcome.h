@@ -25,6 +25,7 @@ class Outcome {
   void squeezed(const Squeezed& squeezed);
   void aligned(const std::vector<AxisAlignedChart>& aligned);
   void laid_out(const Layout& layout);
+  void not_cut() { result_.warnings.push_back("cutting into rectangles did not help here: the charts were not cut"); }
   void reduced(const ReduceResult& reduced) { result_.iterations += reduced.iterations; }
   /// Hands the charts to the debug sink, where there is one.
   void show(const std::string& stage, const std::vector<Chart>& charts);
@@ -53,7 +54,7 @@ class Outcome {
   RefineResult certify(Intervention intervention, Output output, const Gap& gap);
   void require_certificate(const ChartSet& output, int chart_count, const Gap& gap);
   void require_bound();
-  void warn_of_gap(const Gap& gap);
+  void warn_of_gap(const Gap& gap, std::vector<std::string>& warnings) const;
   Vec2 input_uv(int chart, const Support& support) const;
   void report_charts(const std::vector<Chart>& charts, const std::vector<int>& input_charts);
 
@@ -62,6 +63,11 @@ class Outcome {
   Monitor& monitor_;
   DebugSink* debug_;
   RefineResult result_;
+  /// What is told of the cuts, once they are certified.
+  struct {
+    RectangleReport report;
+    std::vector<std::string> repairs, warnings;
+  } cut_;
   std::vector<CornerRef> corners_;
   std::vector<Chart> input_charts_;  // turned over where mirrored
   std::string stage_;
