@@ -17,8 +17,6 @@
 namespace atlas_refine {
 namespace {
 
-// Charts that stay so much above the input's E_d have not relaxed.
-constexpr double kRelaxed = 1.01;
 // Until faces are restored pieces are kept so much further apart than the gap, which leaves room for the last steps.
 constexpr double kFirstGap = 1.02;
 // Relative change of E_d at which the reduction before that ends, and the one after (the paper: 1e-4 for several iterations).
@@ -51,6 +49,7 @@ class RectangleRoad {
     const Layout layout = search_layout(aligned, charts_, layout_options(options_, threads_), monitor_);
     outcome_.laid_out(layout);
     CutCharts cut = cut_charts(aligned, charts_, layout.trails, space_points(atlas_, set_));
+    if (cut.seams.empty()) return std::nullopt;
     const std::vector<Chart> packed = place_pieces(layout, meshes_of(cut), charts_of(cut));
     for (std::size_t p = 0; p < packed.size(); ++p) cut.pieces[p].mesh.uvs = packed[p].uvs;
     spread(layout, cut);
@@ -64,8 +63,7 @@ class RectangleRoad {
     Gap wide = layout.gap;
     wide.value *= kFirstGap;
     const ReduceResult reduced = reduce(cut, wide, kFirstChange);
-    const bool relaxed = reduced.energy <= kRelaxed * enough_;
-    if (!reduced.reached || (cut.seams.empty() && !relaxed)) return std::nullopt;
+    if (!reduced.reached) return std::nullopt;
     if (restore(cut) > 0) reduce(cut, layout.gap, kLastChange);
     return outcome_.certified_cut(set_, cut, layout.gap);
   }

@@ -7,8 +7,8 @@
 
 namespace atlas_refine {
 
-/// The certified result. Nothing where the bound was not reached, or where no chart was cut and they do not relax from their
-/// rectangles: then they are better squeezed. Throws as refine() does.
+/// The certified result. Nothing where no chart needs a cut, or the bound was not reached: then charts are better squeezed, which
+/// divides no face either. Throws as refine() does.
 std::optional<RefineResult> cut_into_rectangles(const Atlas& atlas, ChartSet set, const RefineOptions& options, Outcome& outcome,
                                                 Monitor& monitor);
 

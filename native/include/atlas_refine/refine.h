@@ -67,8 +67,8 @@ struct RefineOptions {
   int threads = 0;  ///< 0 = as many as the machine has; the result does not depend on it
 };
 
-/// What had to be done: with Seams::None the least of the first three that holds the bound, with Seams::Rectangles the first or
-/// the last.
+/// What had to be done: with Seams::None the least of the first three that holds the bound. With Seams::Rectangles charts are
+/// cut, unless the atlas holds the bound already or its rectangles need no cut: then it is one of the first three.
 enum class Intervention { Unchanged, Moved, Squeezed, Cut };
 const char* to_string(Intervention intervention);
 

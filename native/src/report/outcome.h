@@ -25,7 +25,7 @@ class Outcome {
   void squeezed(const Squeezed& squeezed);
   void aligned(const std::vector<AxisAlignedChart>& aligned);
   void laid_out(const Layout& layout);
-  void not_cut() { result_.warnings.push_back("cutting into rectangles did not help here: the charts were not cut"); }
+  void not_cut() { result_.warnings.push_back("no cut was needed, or none helped: the charts were not cut into rectangles"); }
   void reduced(const ReduceResult& reduced) { result_.iterations += reduced.iterations; }
   /// Hands the charts to the debug sink, where there is one.
   void show(const std::string& stage, const std::vector<Chart>& charts);
