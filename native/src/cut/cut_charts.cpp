@@ -9,7 +9,8 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kSamePlace = 1e-9;  // two points of an edge, as fractions of it
+// Two points of an edge in space, as fractions of it: symmetric charts are cut at the same places but for rounding.
+constexpr double kSamePlace = 1e-4;
 
 /// A boundary edge in space; `low` < `high` are points in space.
 struct SpaceEdge {
