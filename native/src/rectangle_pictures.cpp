@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "align/polar_angles.h"
-#include "align/target_angles.h"
 #include "layout/quad_mesh.h"
 #include "measure/distortion.h"
 #include "measure/snapshot.h"
@@ -49,13 +48,7 @@ class Painter {
   /// The input chart, rotated: smoothed directions, then target angles.
   void show_before(double sigma, std::vector<AtlasSnapshot>& out) const {
     Chart before = chart_;
-    for (int v = 0; v < before.vertex_count(); ++v) {
-      before.uvs[v] = Vec2::Zero();
-      for (int k = 0; k < 3; ++k) {
-        const Support& support = aligned_.mesh.supports[v];
-        if (support.vertices[k] >= 0) before.uvs[v] += support.weights[k] * source_.uvs[support.vertices[k]];
-      }
-    }
+    for (int v = 0; v < before.vertex_count(); ++v) before.uvs[v] = value_at(aligned_.mesh.supports[v], source_.uvs);
     before.boundary_loops = {aligned_.boundary};
     const BoundaryAngles boundary = polar_angles(before);
     std::vector<double> angles = smoothed_angles(boundary, sigma * boundary.perimeter());

@@ -22,7 +22,7 @@ constexpr double kFirstGap = 1.02;
 // Relative change of E_d at which the reduction before that ends, and the one after (the paper: 1e-4 for several iterations).
 constexpr double kFirstChange = 1e-4;
 constexpr double kLastChange = 2e-5;
-constexpr double kSpread = 1.01;
+constexpr double kSpread = 1.01;  // what pieces are put further apart by before the reduction, as a factor on their places
 
 class RectangleRoad {
  public:
@@ -49,7 +49,7 @@ class RectangleRoad {
     const Layout layout = search_layout(aligned, charts_, layout_options(options_, threads_), monitor_);
     outcome_.laid_out(layout);
     CutCharts cut = cut_charts(aligned, charts_, layout.trails, space_points(atlas_, set_));
-    if (cut.seams.empty()) return std::nullopt;
+    if (cut.seams.empty()) return not_cut("no chart needs a cut");
     const std::vector<Chart> packed = place_pieces(layout, meshes_of(cut), charts_of(cut));
     for (std::size_t p = 0; p < packed.size(); ++p) cut.pieces[p].mesh.uvs = packed[p].uvs;
     spread(layout, cut);
@@ -63,12 +63,17 @@ class RectangleRoad {
     Gap wide = layout.gap;
     wide.value *= kFirstGap;
     const ReduceResult reduced = reduce(cut, wide, kFirstChange);
-    if (!reduced.reached) return std::nullopt;
+    if (!reduced.reached) return not_cut("that did not reach the bound");
     if (restore(cut) > 0) reduce(cut, layout.gap, kLastChange);
     return outcome_.certified_cut(set_, cut, layout.gap);
   }
 
  private:
+  std::nullopt_t not_cut(const char* why) {
+    outcome_.not_cut(why);
+    return std::nullopt;
+  }
+
   /// Charts may overlap themselves here, but every triangle must be positive.
   void embed_broken_polygons() {
     outcome_.begin_stage("embed", 0.02, 0.05);

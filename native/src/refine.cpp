@@ -39,7 +39,6 @@ class Refinement {
     set_reference(set.charts, options_.reference, options_.importance);
     if (options_.seams == Seams::Rectangles) {
       if (auto cut = cut_into_rectangles(atlas_, set, options_, outcome_, monitor_)) return std::move(*cut);
-      outcome_.not_cut();
     }
     return without_seams(std::move(set));
   }

@@ -1,4 +1,4 @@
-// Prepare, choose target angles, deform; with coarser targets, and at last a rectangle, where that fails.
+// Prepare, choose target angles, deform; with finer, then coarser targets, and at last a rectangle, where that fails.
 #include "align/align.h"
 
 #include <Eigen/Geometry>

@@ -175,11 +175,4 @@ std::vector<int> target_angles(const TargetProblem& problem) {
   return labels;
 }
 
-std::vector<int> corner_turns(const std::vector<int>& quarter_turns) {
-  const int n = static_cast<int>(quarter_turns.size());
-  std::vector<int> turns(n);
-  for (int i = 0; i < n; ++i) turns[i] = quarter_turns[i] - (i > 0 ? quarter_turns[i - 1] : quarter_turns[n - 1] - 4);
-  return turns;
-}
-
 }  // namespace atlas_refine

@@ -19,7 +19,4 @@ struct TargetProblem {
 /// and the local repairs that follow it, and never leaves K_i > 1.
 std::vector<int> target_angles(const TargetProblem& problem);
 
-/// K_i at the start of each edge: the step from the edge before; sums to 4.
-std::vector<int> corner_turns(const std::vector<int>& quarter_turns);
-
 }  // namespace atlas_refine

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "atlas_refine/error.h"
+#include "geometry/axis_aligned_chart.h"
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
 
@@ -24,9 +25,9 @@ TrailTracer::TrailTracer(SplitMesh& mesh, const std::vector<int>& boundary, cons
     marks_[boundary[(i + 1) % n]] |= keeps;
   }
   // A vertex where the direction changes stays where it is, also where it turns back (K = -2).
+  const std::vector<int> turns = corner_turns(quarter_turns);
   for (std::size_t i = 0; i < n; ++i) {
-    const int before = i > 0 ? quarter_turns[i - 1] : quarter_turns[n - 1] - 4;
-    if (quarter_turns[i] != before) marks_[boundary[i]] |= kKeepX | kKeepY;
+    if (turns[i] != 0) marks_[boundary[i]] |= kKeepX | kKeepY;
   }
 }
 

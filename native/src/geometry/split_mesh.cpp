@@ -15,7 +15,16 @@ namespace {
 
 Support original(int vertex) { return {{vertex, -1, -1}, {1, 0, 0}}; }
 
-/// Weights of a support on the three corners of a triangle of the chart.
+}  // namespace
+
+Vec2 value_at(const Support& support, const std::vector<Vec2>& values) {
+  Vec2 value = Vec2::Zero();
+  for (int k = 0; k < 3; ++k) {
+    if (support.vertices[k] >= 0) value += support.weights[k] * values[support.vertices[k]];
+  }
+  return value;
+}
+
 Vec3 weights_on(const Support& support, const Triangle& triangle) {
   Vec3 weights = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -26,8 +35,6 @@ Vec3 weights_on(const Support& support, const Triangle& triangle) {
   }
   return weights;
 }
-
-}  // namespace
 
 Support between(const Support& a, const Support& b, double along) {
   std::map<int, double> sum;

@@ -68,6 +68,11 @@ class SplitMesh {
   std::vector<int> one_triangle_;  // of each vertex
 };
 
+/// The value at a supported point, from the values at the chart's vertices.
+Vec2 value_at(const Support& support, const std::vector<Vec2>& values);
+/// Weights on the three corners of a triangle of the chart, which the point must lie in.
+Vec3 weights_on(const Support& support, const Triangle& triangle);
+
 /// The rest shape of a part of a chart's triangle, whose corners lie where the supports say.
 RestTriangle rest_of_part(const Chart& source, int triangle, const std::array<Support, 3>& corners);
 

@@ -16,17 +16,18 @@ constexpr double kApart = 1e-4;  // extra corners keep so far from all lines, as
 class QuadMeshMaker {
  public:
   QuadMeshMaker(const AxisAlignedChart& aligned, const Chart& source)
-      : aligned_(aligned), source_(source), mesh_(aligned.mesh), tracer_(mesh_, aligned.boundary, aligned.quarter_turns) {}
+      : aligned_(aligned),
+        source_(source),
+        mesh_(aligned.mesh),
+        tracer_(mesh_, aligned.boundary, aligned.quarter_turns),
+        turns_(corner_turns(aligned.quarter_turns)) {}
 
   QuadMesh run(int extra_corners) {
     const int n = static_cast<int>(aligned_.boundary.size());
     for (const auto& loop : mesh_.boundary_loops()) {
       for (const Side& s : loop) out_.boundary_length += surface_length(s);
     }
-    for (int i = 0; i < n; ++i) {
-      const int before = i > 0 ? aligned_.quarter_turns[i - 1] : aligned_.quarter_turns[n - 1] - 4;
-      add_corner(i, before - aligned_.quarter_turns[i], false);
-    }
+    for (int i = 0; i < n; ++i) add_corner(i, -turns_[i], false);
     for (int i : extra_corner_places(extra_corners)) add_corner(i, 0, true);
     for (const auto& trail : out_.trails) ends_.push_back(tracer_.trace(trail.start, TrailTracer::Until::Boundary).back());
     for (std::size_t t = 0; t < ends_.size(); ++t) paths_.push_back(tracer_.path(out_.trails[t].start, ends_[t]));
@@ -40,14 +41,8 @@ class QuadMeshMaker {
   double surface_length(const Side& side) const {
     const int s = mesh_.sources[side.triangle];
     const Mat2 flat = source_.rest[s].inverse_edges.inverse();
-    const auto place = [&](int vertex) {
-      Vec2 p = Vec2::Zero();
-      const Support& support = mesh_.supports[vertex];
-      for (int k = 0; k < 3; ++k) {
-        if (support.vertices[k] == source_.triangles[s][1]) p += support.weights[k] * flat.col(0);
-        if (support.vertices[k] == source_.triangles[s][2]) p += support.weights[k] * flat.col(1);
-      }
-      return p;
+    const auto place = [&](int vertex) -> Vec2 {
+      return flat * weights_on(mesh_.supports[vertex], source_.triangles[s]).tail<2>();
     };
     return (place(mesh_.to(side)) - place(mesh_.from(side))).norm();
   }
@@ -78,7 +73,7 @@ class QuadMeshMaker {
       const double wanted = at[n] * (k + 0.5) / count;
       int best = -1;
       for (int i = 1; i < n; ++i) {
-        if (aligned_.quarter_turns[i] != aligned_.quarter_turns[i - 1] || beside_a_line(i, places, apart)) continue;
+        if (turns_[i] != 0 || beside_a_line(i, places, apart)) continue;
         if (best < 0 || std::abs(at[i] - wanted) < std::abs(at[best] - wanted)) best = i;
       }
       if (best >= 0 && std::find(places.begin(), places.end(), best) == places.end()) places.push_back(best);
@@ -91,8 +86,7 @@ class QuadMeshMaker {
     const int axis = aligned_.quarter_turns[i] % 2 == 0 ? 0 : 1;
     const double line = aligned_.mesh.uvs[aligned_.boundary[i]][axis];
     for (int k = 0; k < static_cast<int>(aligned_.boundary.size()); ++k) {
-      const int before = k > 0 ? aligned_.quarter_turns[k - 1] : aligned_.quarter_turns.back() - 4;
-      const bool corner = aligned_.quarter_turns[k] != before || std::find(chosen.begin(), chosen.end(), k) != chosen.end();
+      const bool corner = turns_[k] != 0 || std::find(chosen.begin(), chosen.end(), k) != chosen.end();
       if (corner && std::abs(aligned_.mesh.uvs[aligned_.boundary[k]][axis] - line) < apart) return true;
     }
     return false;
@@ -179,6 +173,7 @@ class QuadMeshMaker {
   const Chart& source_;
   SplitMesh mesh_;
   TrailTracer tracer_;
+  std::vector<int> turns_;  // K_i
   QuadMesh out_;
   std::vector<int> ends_;  // last vertex of each trail
   std::vector<std::vector<int>> paths_;

@@ -51,9 +51,8 @@ void ReduceSystem::ensure_pattern(const ReduceState& state, const std::vector<Co
   };
   for (const Contact& contact : contacts) add(contact.pair);
   for (const PointEdge& pair : near_pairs(boundary_, state.x, {}, kPatternReach * (gap_.length(state.box) + range_))) {
-    const Closest closest = closest_on_segment(state.x[boundary_.vertex[pair.point]], state.x[boundary_.vertex[pair.edge]],
-                                               state.x[boundary_.vertex[boundary_.next[pair.edge]]]);
-    if (boundary_.chart[pair.point] != boundary_.chart[pair.edge] || faces_outside(boundary_, state.x, pair, closest)) add(pair);
+    const Closest nearest = closest(state.x, pair);
+    if (boundary_.chart[pair.point] != boundary_.chart[pair.edge] || faces_outside(boundary_, state.x, pair, nearest)) add(pair);
   }
   const int box_node = vertex_count();
   if (has_box_) {

@@ -16,11 +16,12 @@ constexpr double kTargetSlack = 2e-5;  // aim so much above the bound, relative,
 constexpr double kNearTarget = 1e-3;   // log PE: from here on the barrier softens
 constexpr double kNegligible = 1e-8;   // a change of E_d that nobody can measure
 constexpr double kLeastPrice = 1e-3;   // the barrier is never softer than for this price
-constexpr double kMostFall = 0.01;  // log PE falls slowly from above the target: so much in one iteration, unless that is dear,
-constexpr double kFastFall = 0.03;  // while E_d - 1 is still so many times what is enough:
-constexpr double kMargin = 3;       // kept to the bound meanwhile: so many times what a step's PE was wrong by,
-constexpr double kMostMargin = 0.006;  // at most
-constexpr double kFar = 2;
+// Where charts start above the target and relax:
+constexpr double kMostFall = 0.01;       // log PE falls so much in one iteration, unless holding it there is dear,
+constexpr double kFastFall = 0.03;       // and so much while E_d - 1 is still far from what is enough:
+constexpr double kFar = 2;               // that many times as much
+constexpr double kMargin = 3;            // they keep off the target by so many times what the PE of a step was wrong by,
+constexpr double kMostMargin = 0.006;    // at most by this
 constexpr double kPressure = 1;          // the barrier is as firm as for this price per unit of E_d - 1,
 constexpr double kDearest = 8;           // or for a price up to so much more,
 constexpr double kMostRise = 4;          // E_d - 1 beyond so much of the start's: the charts are wedged

@@ -86,6 +86,11 @@ double ReduceSystem::gap_unit(const Vec2& box) const {
 
 double ReduceSystem::far_arc_length(const Vec2& box) const { return kFarArc * (has_box_ ? box.norm() : start_.box.norm()); }
 
+Closest ReduceSystem::closest(const std::vector<Vec2>& x, const PointEdge& pair) const {
+  return closest_on_segment(x[boundary_.vertex[pair.point]], x[boundary_.vertex[pair.edge]],
+                            x[boundary_.vertex[boundary_.next[pair.edge]]]);
+}
+
 void ReduceSystem::measure_floors() {
   const double unit = gap_unit(start_.box);
   own_floor_.assign(boundary_.size(), gap_.value);
@@ -93,10 +98,9 @@ void ReduceSystem::measure_floors() {
   for (const PointEdge& pair : near_pairs(boundary_, start_.x, {}, gap_.value * unit)) {
     if (boundary_.chart[pair.point] != boundary_.chart[pair.edge] || boundary_.arc_between(pair.point, pair.edge) < far_arc)
       continue;
-    const Closest closest = closest_on_segment(start_.x[boundary_.vertex[pair.point]], start_.x[boundary_.vertex[pair.edge]],
-                                               start_.x[boundary_.vertex[boundary_.next[pair.edge]]]);
-    if (faces_outside(boundary_, start_.x, pair, closest)) {
-      own_floor_[pair.point] = std::min(own_floor_[pair.point], 0.999 * closest.distance / unit);
+    const Closest nearest = closest(start_.x, pair);
+    if (faces_outside(boundary_, start_.x, pair, nearest)) {
+      own_floor_[pair.point] = std::min(own_floor_[pair.point], 0.999 * nearest.distance / unit);
     }
   }
 }
@@ -144,15 +148,14 @@ std::vector<Contact> ReduceSystem::contacts(const ReduceState& state, const std:
   std::vector<Contact> found;
   for (const PointEdge& pair : near_pairs(boundary_, state.x, step, gap + range_)) {
     Contact contact{pair, gap_.value, range_};
-    const Closest closest = closest_on_segment(state.x[boundary_.vertex[pair.point]], state.x[boundary_.vertex[pair.edge]],
-                                               state.x[boundary_.vertex[boundary_.next[pair.edge]]]);
+    const Closest nearest = closest(state.x, pair);
     if (boundary_.chart[pair.point] == boundary_.chart[pair.edge]) {
-      if (!faces_outside(boundary_, state.x, pair, closest)) continue;
+      if (!faces_outside(boundary_, state.x, pair, nearest)) continue;
       const double arc = boundary_.arc_between(pair.point, pair.edge);
       contact.floor_fraction = arc < far_arc ? 0 : own_floor_[pair.point];
       contact.range = std::min(range_, kRangePerArc * arc);
       // Borders that have turned to face each other below the floor need not part again.
-      if (closest.distance <= contact.floor_fraction * unit) contact.floor_fraction = 0.9 * closest.distance / unit;
+      if (nearest.distance <= contact.floor_fraction * unit) contact.floor_fraction = 0.9 * nearest.distance / unit;
     }
     found.push_back(contact);
   }
@@ -163,10 +166,8 @@ double ReduceSystem::barrier(const ReduceState& state, const std::vector<Contact
   const double unit = gap_unit(state.box);
   double sum = 0;
   for (const Contact& contact : contacts) {
-    const Closest closest =
-        closest_on_segment(state.x[boundary_.vertex[contact.pair.point]], state.x[boundary_.vertex[contact.pair.edge]],
-                           state.x[boundary_.vertex[boundary_.next[contact.pair.edge]]]);
-    sum += log_barrier((closest.distance - contact.floor_fraction * unit) / contact.range).value;
+    const Closest nearest = closest(state.x, contact.pair);
+    sum += log_barrier((nearest.distance - contact.floor_fraction * unit) / contact.range).value;
   }
   if (!has_box_) return sum;
   for (int v : boundary_.vertex) {
@@ -180,10 +181,8 @@ double ReduceSystem::barrier(const ReduceState& state, const std::vector<Contact
 double ReduceSystem::least_slack(const ReduceState& state) const {
   double least = 1;
   for (const Contact& contact : contacts(state, {})) {
-    const Closest closest =
-        closest_on_segment(state.x[boundary_.vertex[contact.pair.point]], state.x[boundary_.vertex[contact.pair.edge]],
-                           state.x[boundary_.vertex[boundary_.next[contact.pair.edge]]]);
-    least = std::min(least, (closest.distance - contact.floor_fraction * gap_unit(state.box)) / contact.range);
+    const Closest nearest = closest(state.x, contact.pair);
+    least = std::min(least, (nearest.distance - contact.floor_fraction * gap_unit(state.box)) / contact.range);
   }
   return least;
 }

@@ -64,6 +64,7 @@ class ReduceSystem {
  private:
   Vec2 box_part(const Vec2& node_step) const;  // sides from the box node's two values
   double gap_unit(const Vec2& box) const;
+  Closest closest(const std::vector<Vec2>& x, const PointEdge& pair) const;
   double far_arc_length(const Vec2& box) const;
   void place_start(const ReduceProblem& problem);
   void measure_floors();

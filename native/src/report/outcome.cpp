@@ -180,7 +180,8 @@ RefineResult Outcome::certified_cut(const ChartSet& set, const CutCharts& cut, c
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const CutPiece& piece = cut.pieces[p];
     output.input_charts.push_back(piece.chart);
-    for (int v = 0; v < piece.mesh.vertex_count(); ++v) output.input[p].uvs[v] = input_uv(piece.chart, piece.supports[v]);
+    for (int v = 0; v < piece.mesh.vertex_count(); ++v)
+      output.input[p].uvs[v] = value_at(piece.supports[v], input_charts_[piece.chart].uvs);
     for (std::size_t t = 0; t < piece.sources.size(); ++t) {
       const Triangle& v = piece.mesh.triangles[t];
       output.charts[p].rest[t] = rest_of_part(input_charts_[piece.chart], piece.sources[t],
@@ -192,14 +193,6 @@ RefineResult Outcome::certified_cut(const ChartSet& set, const CutCharts& cut, c
   result_.repairs.insert(result_.repairs.end(), cut_.repairs.begin(), cut_.repairs.end());
   result_.warnings.insert(result_.warnings.end(), cut_.warnings.begin(), cut_.warnings.end());
   return certify(Intervention::Cut, std::move(output), gap);
-}
-
-Vec2 Outcome::input_uv(int chart, const Support& support) const {
-  Vec2 uv = Vec2::Zero();
-  for (int k = 0; k < 3; ++k) {
-    if (support.vertices[k] >= 0) uv += support.weights[k] * input_charts_[chart].uvs[support.vertices[k]];
-  }
-  return uv;
 }
 
 RefineResult Outcome::certify(Intervention intervention, Output output, const Gap& gap) {

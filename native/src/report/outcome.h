@@ -25,7 +25,8 @@ class Outcome {
   void squeezed(const Squeezed& squeezed);
   void aligned(const std::vector<AxisAlignedChart>& aligned);
   void laid_out(const Layout& layout);
-  void not_cut() { result_.warnings.push_back("no cut was needed, or none helped: the charts were not cut into rectangles"); }
+  /// Why the charts were not cut into rectangles.
+  void not_cut(const char* why) { result_.warnings.push_back(std::string("not cut into rectangles: ") + why); }
   void reduced(const ReduceResult& reduced) { result_.iterations += reduced.iterations; }
   /// Hands the charts to the debug sink, where there is one.
   void show(const std::string& stage, const std::vector<Chart>& charts);
@@ -55,7 +56,6 @@ class Outcome {
   void require_certificate(const ChartSet& output, int chart_count, const Gap& gap);
   void require_bound();
   void warn_of_gap(const Gap& gap, std::vector<std::string>& warnings) const;
-  Vec2 input_uv(int chart, const Support& support) const;
   void report_charts(const std::vector<Chart>& charts, const std::vector<int>& input_charts);
 
   const Atlas& atlas_;
