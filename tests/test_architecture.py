@@ -93,6 +93,11 @@ def test_libraries_live_in_one_place(library):
     assert [user for user in users if not user.startswith(tuple(HOMES[library]))] == []
 
 
+def test_no_stage_includes_the_main_entry():
+    users = [str(path.relative_to(SOURCE)) for path in files(SOURCE) if (True, "atlas_refine/refine.h") in includes(path)]
+    assert users == ["refine.cpp"]
+
+
 def test_includes_make_no_circle():
     graph = {
         str(p.relative_to(SOURCE)): [n for quoted, n in includes(p) if quoted and (SOURCE / n).exists()] for p in files(SOURCE)

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "atlas_refine/refine.h"
+#include "atlas_refine/result.h"
 
 namespace atlas_refine::cli {
 

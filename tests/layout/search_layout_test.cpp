@@ -1,6 +1,7 @@
 // The search: the bound met, pieces apart and inside the box, nothing lost when they are placed, threads without influence.
 #include "layout/search_layout.h"
 
+#include "atlas_refine/error.h"
 #include "cut_checks.h"
 #include "layout/place_pieces.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "atlas_refine/refine.h"
+#include "atlas_refine/options.h"
 #include "geometry/axis_aligned_chart.h"
 #include "geometry/axis_trails.h"
 #include "support/monitor.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "atlas_refine/refine.h"
+#include "atlas_refine/options.h"
 #include "geometry/chart.h"
 #include "support/monitor.h"
 

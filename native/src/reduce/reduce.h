@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "atlas_refine/refine.h"
+#include "atlas_refine/options.h"
 #include "geometry/chart.h"
 
 namespace atlas_refine {

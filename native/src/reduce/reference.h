@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "atlas_refine/refine.h"
+#include "atlas_refine/options.h"
 #include "geometry/chart.h"
 
 namespace atlas_refine {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "atlas_refine/refine.h"
+#include "atlas_refine/result.h"
 #include "cut/cut_charts.h"
 #include "input/split_charts.h"
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "atlas_refine/error.h"
+
 namespace atlas_refine {
 namespace {
 

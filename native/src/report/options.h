@@ -1,7 +1,7 @@
 // The options of one call: checked once, and turned into what the stages take.
 #pragma once
 
-#include "atlas_refine/refine.h"
+#include "atlas_refine/options.h"
 #include "layout/search_layout.h"
 #include "reduce/squeeze.h"
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "atlas_refine/error.h"
 #include "input/check_atlas.h"
 #include "measure/distortion.h"
 #include "measure/metrics.h"

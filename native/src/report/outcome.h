@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "atlas_refine/refine.h"
+#include "atlas_refine/debug_sink.h"
+#include "atlas_refine/result.h"
 #include "cut/cut_charts.h"
 #include "input/split_charts.h"
 #include "layout/search_layout.h"

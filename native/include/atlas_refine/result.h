@@ -1,0 +1,76 @@
+// What one call of refine() gives back: UVs, divided faces, and what was done and measured.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "atlas_refine/measures.h"
+#include "atlas_refine/options.h"
+
+namespace atlas_refine {
+
+/// What had to be done: with Seams::None the least of the first three that holds the bound. With Seams::Rectangles charts are
+/// cut, unless the atlas holds the bound already or its rectangles need no cut: then it is one of the first three.
+enum class Intervention { Unchanged, Moved, Squeezed, Cut };
+const char* to_string(Intervention intervention);
+
+struct ChartReport {
+  int faces = 0;
+  bool mirrored = false;         ///< was turned over
+  bool re_embedded = false;      ///< overlapped itself and was embedded anew
+  double distortion_before = 0;  ///< E_d of the chart alone at its own best scale
+  double distortion_after = 0;
+  double stretch_max = 0;  ///< largest stretch max(s1, 1 / s2) after, at the atlas' global scale
+};
+
+/// How the paper's road went; only with Intervention::Cut.
+struct RectangleReport {
+  int tutte_charts = 0;   ///< charts that Tutte's embedding onto a rectangle had to save: the deformation had failed
+  int boxed_charts = 0;   ///< charts packed by their bounding box as they were: too few triangles, or no disk
+  int holes_cut = 0;      ///< boundary loops that were joined to the outer one
+  int extra_corners = 0;  ///< added to each chart because the bound was missed without
+  int trails = 0;         ///< that the charts were cut along
+  double packed_pe = 0;   ///< of the rectangles, before the distortion was reduced
+};
+
+struct StageTime {
+  std::string stage;
+  double seconds = 0;
+};
+
+/// A vertex that was added: a point of one input face, given by three of its corners.
+struct NewVertex {
+  std::array<int, 3> corners;  ///< input corners, all of one face
+  Vec3 weights;                ///< >= 0, sum 1; on an edge of the face the third one is 0
+};
+
+/// The mesh after cutting. The input's vertices come first, unchanged; faces that no cut crosses keep their corners, and gain one
+/// where a new vertex lies on one of their edges. Faces are ordered by the input face they are part of.
+struct CutMesh {
+  std::vector<int> face_offsets;              ///< as Atlas::face_offsets
+  std::vector<int> corner_vertices;           ///< as Atlas::corner_vertices; input vertices, then new ones
+  std::vector<int> face_sources;              ///< one per face: the input face it is part of
+  std::vector<NewVertex> new_vertices;        ///< vertex k of them has the index (input vertices + k)
+  std::vector<std::array<int, 2>> new_seams;  ///< edges (vertex pairs) that were cut, each once
+};
+
+struct RefineResult {
+  std::vector<Vec2> corner_uvs;  ///< one per corner of `cut` or, without it, of the input; its own, bit for bit, where Unchanged
+  std::optional<CutMesh> cut;    ///< where faces were divided or added seams run: never with Seams::None
+  Intervention intervention = Intervention::Unchanged;
+  bool bound_met = false;  ///< false only with best_effort
+  Measures before;
+  Measures after;
+  Gap gap;             ///< the gap that is guaranteed in the result
+  double price = 0;    ///< lambda: marginal E_d for one unit of log PE at the bound; 0 where it does not bind
+  int iterations = 0;  ///< Newton iterations, all stages
+  std::vector<ChartReport> charts;
+  std::optional<RectangleReport> rectangles;
+  std::vector<std::string> repairs;  ///< one line each: what was mended and where
+  std::vector<std::string> warnings;
+  std::vector<StageTime> timings;
+};
+
+}  // namespace atlas_refine
