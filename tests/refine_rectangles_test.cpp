@@ -285,10 +285,10 @@ TEST(RefineRectangles, ValuesOutOfRangeAreRefused) {
 TEST(RefineRectangles, UntilTheBoundTheDistortionFalls) {
   for (const double bound : {0.7, 0.9}) {
     RefineOptions options = rectangles(bound);
+    const RefineResult all = refine_soundly(comb(2), options);
+    options.rectangles.until_input = true;
     const RefineResult enough = refine_soundly(comb(2), options);
     EXPECT_LT(enough.after.distortion, enough.before.distortion);
-    options.rectangles.until_bound = true;
-    const RefineResult all = refine_soundly(comb(2), options);
     EXPECT_LT(all.after.distortion, enough.after.distortion);
     EXPECT_LT(all.after.pe, enough.after.pe);
   }
@@ -296,7 +296,6 @@ TEST(RefineRectangles, UntilTheBoundTheDistortionFalls) {
 
 TEST(RefineRectangles, TheInputAsReferenceIsKeptCloser) {
   RefineOptions options = rectangles();
-  options.rectangles.until_bound = true;
   const RefineResult surface = refine_soundly(star(1.2), options);
   options.reference = Reference::Input;
   const RefineResult input = refine_soundly(star(1.2), options);
@@ -308,7 +307,6 @@ TEST(RefineRectangles, HeavyFacesAreDistortedLess) {
   const Atlas atlas = star();
   const auto heavy = [&](int face) { return 4 * face < atlas.face_count(); };
   RefineOptions options = rectangles(0.9);
-  options.rectangles.until_bound = true;
   const auto heavy_distortion = [&] {
     const RefineResult result = refine_soundly(atlas, options);
     return measure(part_of(output(atlas, result), result.cut->face_sources, heavy)).distortion;

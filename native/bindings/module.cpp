@@ -19,7 +19,7 @@ namespace atlas_refine::python {
 namespace {
 
 const std::string kRefineKeywords =
-    "pe_bound seams box_aspect gap gap_unit max_distortion best_effort density stored sigma candidates omega until_bound "
+    "pe_bound seams box_aspect gap gap_unit max_distortion relax best_effort density stored sigma candidates omega until_input "
     "reference importance seed threads name";
 
 constexpr const char* kArraysDoc = R"(
@@ -39,12 +39,13 @@ gap              smallest distance between charts as a fraction of gap_unit, har
                  diagonal, reduced only as far as the bound needs
 gap_unit         "diagonal" of the box (default) or its "long_side" (N texels of a texture of S: N / S)
 max_distortion   largest E_d allowed (1 = isometric), or None
+relax            where less would hold the bound, go on to the least distortion under it; default False
 best_effort      return the best valid atlas where the bound is not reached (bound_met says so); default False
 density          "equal" (default): one scale for all charts; "keep": each chart keeps its own
 sigma            of "rectangles": width of the boundary smoothing as a part of a chart's boundary, in (0, 0.1]; default 0.004
 candidates       of "rectangles": layouts that are packed and scored, at least 1; default 500
 omega            of "rectangles": what added boundary costs against packing efficiency, in [0, 1]; default 0.1
-until_bound      of "rectangles": reduce distortion until the bound stops it, not only to the input's; default False
+until_input      of "rectangles": stop where E_d is back at the input's (the paper), instead of at the optimum under the bound; default False
 reference        what E_d is measured against while it is reduced: "surface" (default) or "input", its UVs
 importance       (F,) numbers > 0: each face's weight in E_d; None (default) = all 1
 stored           "double" (default) or "float32": the format you will store; the certificate holds for it

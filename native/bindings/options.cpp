@@ -51,7 +51,7 @@ const std::map<std::string, Reader>& readers() {
       {"sigma", [](Keywords& k, H v, S s) { k.options.rectangles.sigma = number(v, s); }},
       {"candidates", [](Keywords& k, H v, S s) { k.options.rectangles.candidates = read<int>(v, s, "a whole number"); }},
       {"omega", [](Keywords& k, H v, S s) { k.options.rectangles.omega = number(v, s); }},
-      {"until_bound", [](Keywords& k, H v, S s) { k.options.rectangles.until_bound = read<bool>(v, s, "True or False"); }},
+      {"until_input", [](Keywords& k, H v, S s) { k.options.rectangles.until_input = read<bool>(v, s, "True or False"); }},
       {"reference",
        [](Keywords& k, H v, S s) {
          k.options.reference = choice<Reference>(v, s, {{"surface", Reference::Surface}, {"input", Reference::Input}});
@@ -69,6 +69,7 @@ const std::map<std::string, Reader>& readers() {
        [](Keywords& k, H v, S s) {
          if (!v.is_none()) k.options.max_distortion = number(v, s);
        }},
+      {"relax", [](Keywords& k, H v, S s) { k.options.relax = read<bool>(v, s, "True or False"); }},
       {"best_effort", [](Keywords& k, H v, S s) { k.options.best_effort = read<bool>(v, s, "True or False"); }},
       {"density",
        [](Keywords& k, H v, S s) {

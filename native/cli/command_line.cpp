@@ -138,6 +138,8 @@ class Parser {
         });
     add("--aspect", "free|square|W:H", "Shape of the box PE is measured in [free]",
         [&](const Value& v) { options.box_aspect = aspect(v); });
+    app_.add_flag("--relax", options.relax, "Where less would hold the bound, go on to the least distortion under it")
+        ->disable_flag_override();
     app_.add_flag("--best-effort", options.best_effort, "Write the best valid atlas found even if it misses the bound")
         ->disable_flag_override();
     add("--density", "equal|keep", "One scale for all charts, or each chart's own as in IN [equal]", [&](const Value& v) {
@@ -182,9 +184,9 @@ class Parser {
     });
     add_for_rectangles("--omega", "W", "what boundary length costs against PE, from 0 to 1 [0.1]",
                        [&](const Value& v) { options.omega = v.number_in(0, 1, false, "a number from 0 to 1"); });
-    until_bound_ = app_.add_flag("--until-bound", options.until_bound,
-                                 "With rectangles: reduce distortion until the bound stops it, not only to that of IN");
-    until_bound_->disable_flag_override();
+    until_input_ = app_.add_flag("--until-input", options.until_input,
+                                 "With rectangles: stop where the distortion is back at that of IN, as the paper does");
+    until_input_->disable_flag_override();
   }
 
   void add_gap() {
@@ -233,7 +235,7 @@ class Parser {
     if (line_.inputs.empty()) throw UsageError("IN.obj: missing; say atlas-refine IN.obj -o OUT.obj");
     if (line_.output.empty()) throw UsageError("--output: missing; say where the result goes with -o OUT.obj");
     check_names();
-    if (until_bound_->count() > 0 && !first_for_rectangles_) first_for_rectangles_ = "--until-bound";
+    if (until_input_->count() > 0 && !first_for_rectangles_) first_for_rectangles_ = "--until-input";
     if (first_for_rectangles_ && line_.options.seams != Seams::Rectangles)
       throw UsageError(std::string(first_for_rectangles_) + ": needs --seams rectangles");
     finish_gap();
@@ -269,7 +271,7 @@ class Parser {
   std::optional<double> gap_texels_;
   std::optional<unsigned> texture_size_;
   const char* first_for_rectangles_ = nullptr;  // the first such option on the line
-  CLI::Option* until_bound_ = nullptr;
+  CLI::Option* until_input_ = nullptr;
   CLI::App* measure_ = nullptr;
   CLI::App app_{
       "Brings the UV atlas of OBJ files to a packing efficiency bound, without a new seam or with charts cut into rectangles.\n"

@@ -41,7 +41,7 @@ Json to_json(const Gap& gap) {
 }
 
 Json to_json(const RectangleOptions& o) {
-  return {{"sigma", o.sigma}, {"candidates", o.candidates}, {"omega", o.omega}, {"until_bound", o.until_bound}};
+  return {{"sigma", o.sigma}, {"candidates", o.candidates}, {"omega", o.omega}, {"until_input", o.until_input}};
 }
 
 Json to_json(const RectangleReport& r) {
@@ -66,6 +66,7 @@ Json to_json(const CommandLine& line) {
           {"box_aspect", o.box_aspect == 0 ? Json("free") : Json(o.box_aspect)},
           {"gap", o.gap ? to_json(*o.gap) : Json("automatic")},
           {"max_distortion", o.max_distortion ? Json(*o.max_distortion) : Json(nullptr)},
+          {"relax", o.relax},
           {"best_effort", o.best_effort},
           {"density", o.density == Density::Keep ? "keep" : "equal"},
           {"reference", o.reference == Reference::Input ? "input" : "surface"},

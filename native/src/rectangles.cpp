@@ -97,7 +97,7 @@ class RectangleRoad {
   /// Moves the pieces to less distortion under the bound.
   ReduceResult reduce(CutCharts& cut, const Gap& gap, double least_change) {
     const std::vector<Chart> pieces = meshes_of(cut);
-    const bool to_the_end = options_.rectangles.until_bound || options_.reference == Reference::Input;
+    const bool to_the_end = !options_.rectangles.until_input || options_.reference == Reference::Input;
     const ReduceProblem problem{.charts = pieces,
                                 .gap = gap,
                                 .box_aspect = options_.box_aspect,

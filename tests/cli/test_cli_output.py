@@ -153,7 +153,7 @@ def test_cut_is_told(program, tmp_path):
     for word in ("cut: ", "seams BL", "charts", "added", "packed to", "align"):
         assert word in told
     written = json.loads(report.read_text())
-    assert written["options"]["rectangles"] == {"sigma": 0.004, "candidates": 50, "omega": 0.1, "until_bound": False}
+    assert written["options"]["rectangles"] == {"sigma": 0.004, "candidates": 50, "omega": 0.1, "until_input": False}
     assert {"align", "layout", "reduce"} <= {stage["stage"] for stage in written["timings"]}
     assert written["rectangles"]["trails"] >= 0
     added = written["files"][0]

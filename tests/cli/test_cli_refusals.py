@@ -105,8 +105,8 @@ BAD_OPTIONS = [
     (["--sigma", "0.004"], "--sigma: needs --seams rectangles"),
     (["--candidates", "500"], "--candidates: needs --seams rectangles"),
     (["--omega", "0.1", "--seams", "none"], "--omega: needs --seams rectangles"),
-    (["--until-bound"], "--until-bound: needs --seams rectangles"),
-    (["--until-bound=1", *RECTANGLES], "--until-bound"),
+    (["--until-input"], "--until-input: needs --seams rectangles"),
+    (["--until-input=1", *RECTANGLES], "--until-input"),
     (["--sigma", "-0.004", *RECTANGLES], "--sigma"),
     (["--sigma", "0", *RECTANGLES], "--sigma"),
     (["--sigma", "0.2", *RECTANGLES], "--sigma"),
@@ -215,7 +215,7 @@ def test_bound_out_of_reach_writes_nothing(program, tmp_path, old_output):
     assert "0.5" in message
 
 
-CUT_OPTIONS = ("--seams", "--sigma", "--candidates", "--omega", "--until-bound", "--reference", "--importance")
+CUT_OPTIONS = ("--seams", "--sigma", "--candidates", "--omega", "--until-input", "--reference", "--importance")
 
 
 def test_help_and_version(program):

@@ -100,7 +100,7 @@ def test_importance_has_one_positive_number_for_each_face():
     assert atlas_refine.refine(*arrays, importance=heavy).corner_uvs.tobytes() != even.tobytes()
 
 
-@pytest.mark.parametrize("option", [{"sigma": 0.02}, {"until_bound": True}, {"reference": "input"}])
+@pytest.mark.parametrize("option", [{"sigma": 0.02}, {"until_input": True}, {"reference": "input"}])
 def test_options_arrive(option):
     plain = cut()[1]
     assert cut(**option)[1].corner_uvs.tobytes() != plain.corner_uvs.tobytes()

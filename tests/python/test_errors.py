@@ -128,7 +128,7 @@ def test_a_flipped_face_is_refused_with_its_chart_and_face():
 @pytest.mark.parametrize(
     "options",
     [{"bound": 0.8}, {"pe_bound": "high"}, {"pe_bound": None}, {"seed": -1}, {"progress": 3}, {"threads": 1.5}, {"name": 1}]
-    + [{"candidates": 2.5}, {"sigma": "wide"}, {"until_bound": "yes"}],
+    + [{"candidates": 2.5}, {"sigma": "wide"}, {"until_input": "yes"}],
 )
 def test_what_is_no_argument_at_all_is_a_type_error(options):
     with pytest.raises(TypeError, match=next(iter(options))):

@@ -14,6 +14,7 @@ struct Measures {
   double pe_fixed_aspect = 0;  ///< the same against the smallest box of the asked aspect; equals pe where the aspect is free
   double box_width = 0;        ///< UV bounding box
   double box_height = 0;
+  double unit_square_share = 0;  ///< sum of UV triangle areas: the share of the texture, where the UVs lie in [0, 1]^2
   double boundary_length =
       0;                ///< BL: 3D length of all seams, each once, without natural boundary / diagonal of the 3D bounding box
   int seam_edges = 0;   ///< 3D edges across which the UVs differ

@@ -35,10 +35,11 @@ struct Gap {
 
 /// What only Seams::Rectangles reads.
 struct RectangleOptions {
-  double sigma = 0.004;      ///< eq. (3): width of the boundary smoothing / length of the chart's boundary, in (0, 0.1]
-  int candidates = 500;      ///< layouts that are packed and scored, N_motor of section 3.2, in [1, 1000000]
-  double omega = 0.1;        ///< eq. (11): what boundary length costs against PE, in [0, 1]
-  bool until_bound = false;  ///< reduce distortion until the bound stops it, not only to the input's E_d (Fig. 13)
+  double sigma = 0.004;  ///< eq. (3): width of the boundary smoothing / length of the chart's boundary, in (0, 0.1]
+  int candidates = 500;  ///< layouts that are packed and scored, N_motor of section 3.2, in [1, 1000000]
+  double omega = 0.1;    ///< eq. (11): what boundary length costs against PE, in [0, 1]
+  bool until_input =
+      false;  ///< stop as soon as E_d is back at the input's, as the paper does; else go on until the bound stops it
 };
 
 struct RefineOptions {
@@ -47,6 +48,7 @@ struct RefineOptions {
   double box_aspect = 0;   ///< width / height of the output box; 0 = free, 1 = square
   std::optional<Gap> gap;  ///< hard where given; else 0.0025 of the diagonal, reduced only as far as the bound needs
   std::optional<double> max_distortion;  ///< largest E_d allowed, >= 1
+  bool relax = false;                    ///< go on to the least distortion under the bound where less would already hold it
   bool best_effort = false;              ///< return the best valid atlas found instead of throwing BoundNotReached
   Density density = Density::Equal;
   Stored stored = Stored::Double;

@@ -16,13 +16,39 @@ namespace atlas_refine {
 enum class Intervention { Unchanged, Moved, Squeezed, Cut };
 const char* to_string(Intervention intervention);
 
+/// Why the last optimisation ended.
+enum class Ended {
+  NotRun,           ///< charts were left as they are or only moved
+  AtOptimum,        ///< E_d is at its optimum under the bound
+  Enough,           ///< E_d is back at the input's: the paper's stop
+  Stalled,          ///< no further progress: there may be a better result
+  OutOfIterations,  ///< likewise
+  DistortionLimit,  ///< the bound is out of reach within max_distortion
+};
+/// Stable lower-case name ("not_run", "at_optimum", ...), used in reports and in Python.
+const char* to_string(Ended ended);
+
+/// One chart of the input, in the order of its smallest face, and what became of it.
 struct ChartReport {
   int faces = 0;
+  double area = 0;               ///< on the surface, model units squared
   bool mirrored = false;         ///< was turned over
   bool re_embedded = false;      ///< overlapped itself and was embedded anew
   double distortion_before = 0;  ///< E_d of the chart alone at its own best scale
   double distortion_after = 0;
   double stretch_max = 0;  ///< largest stretch max(s1, 1 / s2) after, at the atlas' global scale
+  /// Texel density: sqrt(UV area / surface area) of the chart / the same of the whole atlas; 1 = as dense as the atlas.
+  double density_before = 0;
+  double density_after = 0;
+};
+
+/// One chart of the output, where charts were cut: a part of a chart of the input.
+struct PieceReport {
+  int chart = 0;          ///< index into RefineResult::charts
+  int faces = 0;          ///< of the output
+  double area = 0;        ///< on the surface, model units squared
+  double distortion = 0;  ///< E_d of the piece alone at its own best scale
+  double stretch_max = 0;
 };
 
 /// How the paper's road went; only with Intervention::Cut.
@@ -49,9 +75,13 @@ struct NewVertex {
 /// The mesh after cutting. The input's vertices come first, unchanged; faces that no cut crosses keep their corners, and gain one
 /// where a new vertex lies on one of their edges. Faces are ordered by the input face they are part of.
 struct CutMesh {
-  std::vector<int> face_offsets;              ///< as Atlas::face_offsets
-  std::vector<int> corner_vertices;           ///< as Atlas::corner_vertices; input vertices, then new ones
-  std::vector<int> face_sources;              ///< one per face: the input face it is part of
+  std::vector<int> face_offsets;     ///< as Atlas::face_offsets
+  std::vector<int> corner_vertices;  ///< as Atlas::corner_vertices; input vertices, then new ones
+  std::vector<int> face_sources;     ///< one per face: the input face it is part of
+  /// One per corner: the input corners, all of the face that its face is part of, whose weighted mean the corner is. A corner
+  /// that was one of the input's has it three times, with the weights 1, 0, 0.
+  std::vector<std::array<int, 3>> corner_sources;
+  std::vector<Vec3> corner_weights;           ///< >= 0, sum 1
   std::vector<NewVertex> new_vertices;        ///< vertex k of them has the index (input vertices + k)
   std::vector<std::array<int, 2>> new_seams;  ///< edges (vertex pairs) that were cut, each once
 };
@@ -66,9 +96,12 @@ struct RefineResult {
   Gap gap;             ///< the gap that is guaranteed in the result
   double price = 0;    ///< lambda: marginal E_d for one unit of log PE at the bound; 0 where it does not bind
   int iterations = 0;  ///< Newton iterations, all stages
-  std::vector<ChartReport> charts;
+  Ended ended = Ended::NotRun;
+  std::vector<ChartReport> charts;  ///< one per chart of the input
+  std::vector<PieceReport> pieces;  ///< one per chart of the output; empty unless Intervention::Cut
   std::optional<RectangleReport> rectangles;
-  std::vector<std::string> repairs;  ///< one line each: what was mended and where
+  std::vector<std::string> repairs;    ///< one line each: what was mended and where
+  std::vector<std::string> fallbacks;  ///< one line each: what was tried first, and what was done instead
   std::vector<std::string> warnings;
   std::vector<StageTime> timings;
 };
