@@ -5,25 +5,23 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 #include <vector>
 
 #include "align/align.h"
 #include "charts.h"
-#include "cut/cut_charts.h"
+#include "cut/boundary_places.h"
+#include "cut/cut_atlas.h"
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
 #include "geometry/split_mesh.h"
 #include "layout/search_layout.h"
+#include "layout/trail_paths.h"
 #include "shapes.h"
 
 namespace atlas_refine::testing {
 
-inline double rest_area(const Chart& chart) {
-  return std::accumulate(chart.rest.begin(), chart.rest.end(), 0.0,
-                         [](double sum, const RestTriangle& rest) { return sum + rest.area; });
-}
+inline double rest_area(const Chart& chart) { return chart.surface.area(); }
 
 inline Chart chart_of(const shapes::Polygon& polygon, double edge_length = 0.08) {
   return charts_of(shapes::mesh(polygon, edge_length)).front();
@@ -144,7 +142,7 @@ struct Laid {
   ChartSet set;
   std::vector<AxisAlignedChart> aligned;
   Layout layout;
-  CutCharts cut;
+  CutAtlas cut;
 };
 
 inline LayoutOptions layout_options(double pe_bound, int threads = 1) {
@@ -156,7 +154,10 @@ inline Laid laid(const Atlas& atlas, double pe_bound = 0.8, double sigma = 0.01)
   Monitor monitor;
   out.aligned = aligned(out.set.charts, sigma);
   out.layout = search_layout(out.aligned, out.set.charts, layout_options(pe_bound), monitor);
-  out.cut = cut_charts(out.aligned, out.set.charts, out.layout.trails, space_points(atlas, out.set));
+  TracedTrails traced = trace_trails(out.aligned, out.layout.trails);
+  const auto points = space_points(atlas, out.set);
+  match_boundaries(traced.meshes, points);
+  out.cut = cut_along(divided_atlas(traced.meshes, out.set.charts, points), out.set.charts, traced.paths);
   return out;
 }
 

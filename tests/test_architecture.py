@@ -1,4 +1,4 @@
-"""The include directions of native/: support <- geometry <- solve <- measure <- stages <- report, refine <- bindings, cli."""
+"""The include directions of native/: support <- geometry <- solve <- measure <- cut <- stages <- repair <- report <- roads <- refine <- bindings, cli."""
 
 import pathlib
 import re
@@ -14,10 +14,12 @@ LEVELS = [
     ["geometry"],
     ["solve"],
     ["measure"],
-    ["input", "pack", "align", "layout", "cut", "reduce"],
+    ["cut"],
+    ["input", "pack", "align", "layout", "reduce"],
+    ["repair"],
     ["report"],
     ["rectangle_pictures"],
-    ["rectangles"],
+    ["rectangles", "whole"],
     ["refine"],
 ]
 # Libraries that live in one place and nowhere else.

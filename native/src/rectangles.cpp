@@ -1,22 +1,25 @@
 // The three steps of the paper, one after the other.
 #include "rectangles.h"
 
+#include <cmath>
+
 #include "align/align.h"
-#include "cut/cut_charts.h"
+#include "cut/boundary_places.h"
 #include "cut/restore_faces.h"
 #include "layout/place_pieces.h"
 #include "layout/search_layout.h"
+#include "layout/trail_paths.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "rectangle_pictures.h"
-#include "reduce/density.h"
-#include "reduce/re_embed.h"
-#include "report/options.h"
-#include "support/parallel.h"
+#include "reduce/goal.h"
+#include "repair/re_embed.h"
 
 namespace atlas_refine {
 namespace {
 
+constexpr double kGapStep = 0.6;
+constexpr int kGapSteps = 3;  // smaller automatic gaps tried before extra corners
 // Until faces are restored pieces are kept so much further apart than the gap, which leaves room for the last steps.
 constexpr double kFirstGap = 1.02;
 // Relative change of E_d at which the reduction before that ends, and the one after (the paper: 1e-4 for several iterations).
@@ -24,119 +27,189 @@ constexpr double kFirstChange = 1e-4;
 constexpr double kLastChange = 2e-5;
 constexpr double kSpread = 1.01;  // what pieces are put further apart by before the reduction, as a factor on their places
 
-class RectangleRoad {
- public:
-  RectangleRoad(const Atlas& atlas, ChartSet set, const RefineOptions& options, Outcome& outcome, Monitor& monitor)
-      : atlas_(atlas),
-        set_(std::move(set)),
-        options_(options),
-        outcome_(outcome),
-        monitor_(monitor),
-        threads_(resolve_threads(options.threads)) {}
+using AlignedCharts = std::vector<AxisAlignedChart>;
 
-  std::optional<RefineResult> run() {
-    embed_broken_polygons();
-    charts_ = set_.charts;
-    enough_ = dirichlet_sums(charts_).best_energy();
-    set_density(charts_, options_.density);
-    if (options_.density == Density::Keep) enough_ = dirichlet_sums(charts_).best_energy();
-
-    outcome_.begin_stage("align", 0.05, 0.35);  // section 3.1
-    const auto aligned = align_charts(charts_, {options_.rectangles.sigma, threads_}, monitor_);
-    outcome_.aligned(aligned);
-
-    outcome_.begin_stage("layout", 0.35, 0.45);  // section 3.2
-    const Layout layout = search_layout(aligned, charts_, layout_options(options_, threads_), monitor_);
-    outcome_.laid_out(layout);
-    CutCharts cut = cut_charts(aligned, charts_, layout.trails, space_points(atlas_, set_));
-    if (cut.seams.empty()) return not_cut("no chart needs a cut");
-    const std::vector<Chart> packed = place_pieces(layout, meshes_of(cut), charts_of(cut));
-    for (std::size_t p = 0; p < packed.size(); ++p) cut.pieces[p].mesh.uvs = packed[p].uvs;
-    spread(layout, cut);
-    if (outcome_.draws()) {
-      for (const auto& picture : rectangle_pictures(charts_, aligned, layout.trails, options_.rectangles.sigma))
-        outcome_.show(picture);
-    }
-    outcome_.show("packed", packed);
-
-    outcome_.begin_stage("reduce", 0.45, 0.95);  // section 3.3
-    Gap wide = layout.gap;
-    wide.value *= kFirstGap;
-    const ReduceResult reduced = reduce(cut, wide, kFirstChange);
-    if (!reduced.reached) return not_cut("that did not reach the bound");
-    if (restore(cut) > 0) reduce(cut, layout.gap, kLastChange);
-    return outcome_.certified_cut(set_, cut, layout.gap);
+LayoutOptions layout_options(const Refinement& run) {
+  const RefineOptions& options = run.options;
+  LayoutOptions layout{.pe_bound = options.pe_bound,
+                       .box_aspect = options.box_aspect,
+                       .gaps = {options.gap.value_or(Gap{})},
+                       .rectangles = options.rectangles,
+                       .seed = options.seed,
+                       .threads = run.threads};
+  for (int k = 0; !options.gap && k < kGapSteps; ++k) {
+    Gap smaller = layout.gaps.back();
+    smaller.value *= kGapStep;
+    layout.gaps.push_back(smaller);
   }
+  return layout;
+}
 
- private:
-  std::nullopt_t not_cut(const char* why) {
-    outcome_.not_cut(why);
-    return std::nullopt;
+void embed(const Refinement& run, int c, std::vector<Chart>& charts, std::vector<int>& embedded) {
+  charts[c] = re_embed(charts[c], c, run.threads, run.monitor);
+  run.journal.repairs.push_back(charts_named({c}) + ": overlapped or touched itself, embedded anew");
+  embedded.push_back(c);
+}
+
+/// Charts may overlap themselves here, but every triangle must be positive.
+void embed_broken_polygons(const Refinement& run, std::vector<Chart>& charts, std::vector<int>& embedded) {
+  for (const FaceDefect& defect : run.input.set.defects) {
+    if (certify_charts({charts[defect.chart]}).flipped_faces == 0) continue;  // mended with another of its faces
+    embed(run, defect.chart, charts, embedded);
   }
+}
 
-  /// Charts may overlap themselves here, but every triangle must be positive.
-  void embed_broken_polygons() {
-    outcome_.begin_stage("embed", 0.02, 0.05);
-    for (const FaceDefect& defect : set_.defects) {
-      if (certify_charts({set_.charts[defect.chart]}).flipped_faces == 0) continue;  // mended with another of its faces
-      set_.charts[defect.chart] = re_embed(set_.charts[defect.chart], defect.chart, threads_, monitor_);
-      outcome_.re_embedded(defect.chart);
-    }
+/// Axis-aligned charts. Those that are left as they are lie in the layout as they are: they must not overlap themselves.
+AlignedCharts align(const Refinement& run, std::vector<Chart>& charts, std::vector<int>& embedded) {
+  const AlignOptions options{run.options.rectangles.sigma, run.threads};
+  AlignedCharts aligned = align_charts(charts, options, run.monitor);
+  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+    if (aligned[c].way != AxisAlignedChart::Way::AsItIs || certify_charts({charts[c]}).valid()) continue;
+    embed(run, c, charts, embedded);
+    set_density(charts, wanted_density(run.input.set.charts, run.options.density), run.options.density);
+    aligned[c] = std::move(align_charts({charts[c]}, options, run.monitor).front());
   }
+  return aligned;
+}
 
-  /// Puts the pieces a little further apart, as far as the bound allows: pieces that touch block each other's first steps.
-  void spread(const Layout& layout, CutCharts& cut) const {
-    const double factor = std::min(kSpread, std::sqrt(layout.pe / (1.01 * options_.pe_bound)));
-    if (!(factor > 1)) return;
-    for (CutPiece& piece : cut.pieces) {
-      const Vec2 shift = (factor - 1) * uv_box({piece.mesh}).min;
-      for (Vec2& uv : piece.mesh.uvs) uv += shift;
-    }
+RectangleReport report_of(const AlignedCharts& aligned, const Layout& layout) {
+  RectangleReport report{.extra_corners = layout.extra_corners, .packed_pe = layout.pe};
+  for (const AxisAlignedChart& chart : aligned) {
+    report.tutte_charts += chart.way == AxisAlignedChart::Way::Rectangle;
+    report.boxed_charts += chart.way == AxisAlignedChart::Way::AsItIs;
+    report.holes_cut += chart.holes_cut;
   }
+  for (const auto& trails : layout.trails) report.trails += static_cast<int>(trails.size());
+  return report;
+}
 
-  /// Moves the pieces to less distortion under the bound.
-  ReduceResult reduce(CutCharts& cut, const Gap& gap, double least_change) {
-    const std::vector<Chart> pieces = meshes_of(cut);
-    const bool to_the_end = !options_.rectangles.until_input || options_.reference == Reference::Input;
-    const ReduceProblem problem{.charts = pieces,
-                                .gap = gap,
-                                .box_aspect = options_.box_aspect,
-                                .pe_target = options_.pe_bound,
-                                .enough_distortion = to_the_end ? 0 : enough_,
-                                .least_change = 0,
-                                .negligible = least_change,
-                                .max_distortion = options_.max_distortion.value_or(0),
-                                .threads = threads_};
-    ReduceResult reduced = reduce_distortion(
-        problem, [&](const ReduceProgress& progress) { monitor_.report(1 - 1 / (1 + 0.1 * progress.iteration), progress.pe); });
-    outcome_.reduced(reduced);
-    for (std::size_t p = 0; p < cut.pieces.size(); ++p) cut.pieces[p].mesh.uvs = reduced.uvs[p];
-    return reduced;
+/// What is told of the cuts; only once they are the result.
+void tell(const Refinement& run, const AlignedCharts& aligned, const Layout& layout, const RectangleReport& report) {
+  std::vector<int> opened, saved, boxed;
+  for (int c = 0; c < static_cast<int>(aligned.size()); ++c) {
+    if (aligned[c].holes_cut > 0) opened.push_back(c);
+    if (aligned[c].way == AxisAlignedChart::Way::Rectangle) saved.push_back(c);
+    if (aligned[c].way == AxisAlignedChart::Way::AsItIs) boxed.push_back(c);
   }
+  Journal& journal = run.journal;
+  if (!opened.empty())
+    journal.repairs.push_back(charts_named(opened) + ": " + std::to_string(report.holes_cut) +
+                              (report.holes_cut == 1 ? " hole" : " holes") + " cut open along shortest paths");
+  if (!saved.empty())
+    journal.fallbacks.push_back(charts_named(saved) + ": could not be deformed to the axes; embedded onto a rectangle");
+  if (!boxed.empty())
+    journal.fallbacks.push_back(charts_named(boxed) + ": too few triangles, or no disk; packed by the bounding box as it is");
+  if (layout.extra_corners > 0)
+    journal.fallbacks.push_back("the bound was missed with the charts' own corners; " + std::to_string(layout.extra_corners) +
+                                " were added to each chart");
+  if (!run.options.gap && layout.gap.value < Gap{}.value)
+    journal.warnings.push_back("the gap was reduced from " + number_text("%g", Gap{}.value) + " to " +
+                               number_text("%g", layout.gap.value) +
+                               " of the box diagonal: no layout holds the bound with a larger one");
+}
 
-  /// Takes out the vertices that only served the deformation; returns how many.
-  int restore(CutCharts& cut) const {
-    const double scale = dirichlet_sums(meshes_of(cut)).best_scale();
-    int removed = 0;
-    for (CutPiece& piece : cut.pieces) removed += restore_faces(piece, charts_[piece.chart], scale);
-    return removed;
+/// Charts divided along the trails and taken apart, where the axis-aligned charts lie.
+CutAtlas cut_along_trails(const Refinement& run, const AlignedCharts& aligned, const std::vector<Chart>& charts,
+                          const Layout& layout) {
+  TracedTrails traced = trace_trails(aligned, layout.trails);
+  const auto points = space_points(run.input.atlas, run.input.set);
+  match_boundaries(traced.meshes, points);
+  return cut_along(divided_atlas(traced.meshes, charts, points), charts, traced.paths);
+}
+
+/// The pieces where the layout wants them, a little further apart as far as the bound allows: pieces that touch block each
+/// other's first steps.
+void place(const Refinement& run, const Layout& layout, CutAtlas& cut) {
+  const std::vector<Chart> packed = place_pieces(layout, meshes_of(cut), charts_of(cut));
+  run.journal.show("packed", packed);
+  const double factor = std::max(1.0, std::min(kSpread, std::sqrt(layout.pe / (1.01 * run.options.pe_bound))));
+  for (std::size_t p = 0; p < packed.size(); ++p) {
+    const Vec2 shift = (factor - 1) * uv_box({packed[p]}).min;
+    cut.pieces[p].mesh.uvs = packed[p].uvs;
+    for (Vec2& uv : cut.pieces[p].mesh.uvs) uv += shift;
   }
+}
 
-  const Atlas& atlas_;
-  ChartSet set_;
-  const RefineOptions& options_;
-  Outcome& outcome_;
-  Monitor& monitor_;
-  int threads_;
-  std::vector<Chart> charts_;
-  double enough_ = 1;  // E_d at which the reduction may stop
-};
+/// The objective of the charts as they come: where the paper stops.
+double energy_of_input(const Refinement& run, const std::vector<Chart>& charts) {
+  const Objective objective = goal_of(run.input.set.charts, whole_atlas(charts), run.options);
+  const std::vector<Chart> start = charts;
+  return reduce_distortion({.charts = start, .objective = objective, .max_iterations = 0}).energy;
+}
+
+/// Moves the pieces to less distortion under the bound.
+ReduceResult reduce(const Refinement& run, const Gap& gap, double least_change, double enough, CutAtlas& cut) {
+  const std::vector<Chart> pieces = meshes_of(cut);
+  const ReduceProblem problem{.charts = pieces,
+                              .objective = goal_of(run.input.set.charts, cut, run.options),
+                              .gap = gap,
+                              .box_aspect = run.options.box_aspect,
+                              .pe_target = run.options.pe_bound,
+                              .enough_distortion = enough,
+                              .least_change = 0,
+                              .negligible = least_change,
+                              .max_distortion = run.options.max_distortion.value_or(0),
+                              .threads = run.threads};
+  ReduceResult reduced = reduce_distortion(
+      problem, [&](const ReduceProgress& progress) { run.monitor.report(1 - 1 / (1 + 0.1 * progress.iteration), progress.pe); });
+  run.journal.iterations += reduced.iterations;
+  cut = with_uvs(std::move(cut), reduced.uvs);
+  return reduced;
+}
+
+/// Takes out the vertices that only served the deformation; returns how many.
+int restore(const std::vector<Chart>& charts, CutAtlas& cut) {
+  const double scale = dirichlet_sums(meshes_of(cut)).best_scale();
+  int removed = 0;
+  for (Piece& piece : cut.pieces) removed += restore_faces(piece, charts[piece.chart], scale);
+  return removed;
+}
+
+std::nullopt_t fall_back(const Refinement& run, const std::string& why) {
+  run.journal.fallbacks.push_back("charts were not cut into rectangles: " + why + "; they are squeezed");
+  return std::nullopt;
+}
 
 }  // namespace
 
-std::optional<RefineResult> cut_into_rectangles(const Atlas& atlas, ChartSet set, const RefineOptions& options, Outcome& outcome,
-                                                Monitor& monitor) {
-  return RectangleRoad(atlas, std::move(set), options, outcome, monitor).run();
+std::optional<Solution> refine_by_rectangles(const Refinement& run, const ProgressRange& range) {
+  const RefineOptions& options = run.options;
+  Journal& journal = run.journal;
+  Solution out{.intervention = Intervention::Cut};
+  std::vector<Chart> charts = run.input.set.charts;
+  journal.begin_stage("embed", range.part(0, 0.03));
+  embed_broken_polygons(run, charts, out.re_embedded);
+  set_density(charts, wanted_density(run.input.set.charts, options.density), options.density);
+  const double enough = options.rectangles.until_input ? energy_of_input(run, charts) : 0;
+
+  journal.begin_stage("align", range.part(0.03, 0.35));  // section 3.1
+  const AlignedCharts aligned = align(run, charts, out.re_embedded);
+
+  journal.begin_stage("layout", range.part(0.35, 0.45));  // section 3.2
+  const Layout layout = search_layout(aligned, charts, layout_options(run), run.monitor);
+  out.atlas = cut_along_trails(run, aligned, charts, layout);
+  if (out.atlas.seams.empty()) return fall_back(run, "no chart needs a cut");
+  if (journal.draws()) {
+    for (const auto& picture : rectangle_pictures(charts, aligned, layout.trails, options.rectangles.sigma))
+      journal.show(picture);
+  }
+  place(run, layout, out.atlas);
+  if (const Validity start = certify_charts(meshes_of(out.atlas)); !start.valid())
+    return fall_back(run, "in their layout " + start.problem);
+
+  journal.begin_stage("reduce", range.part(0.45, 1));  // section 3.3
+  Gap wide = layout.gap;
+  wide.value *= kFirstGap;
+  ReduceResult reduced = reduce(run, wide, kFirstChange, enough, out.atlas);
+  if (!reduced.within_limit) return fall_back(run, "cut, their distortion stays above the largest allowed");
+  if (!reduced.reached) return fall_back(run, "that did not reach the bound");
+  if (restore(charts, out.atlas) > 0) reduced = reduce(run, layout.gap, kLastChange, enough, out.atlas);
+  out.gap = layout.gap;
+  out.ended = ended_of(reduced.status);
+  out.price = reduced.price;
+  out.rectangles = report_of(aligned, layout);
+  tell(run, aligned, layout, *out.rectangles);
+  return out;
 }
 
 }  // namespace atlas_refine

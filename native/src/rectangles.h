@@ -3,13 +3,12 @@
 
 #include <optional>
 
-#include "report/outcome.h"
+#include "report/solution.h"
 
 namespace atlas_refine {
 
-/// The certified result. Nothing where no chart needs a cut, or the bound was not reached: then charts are better squeezed, which
-/// divides no face either. Throws as refine() does.
-std::optional<RefineResult> cut_into_rectangles(const Atlas& atlas, ChartSet set, const RefineOptions& options, Outcome& outcome,
-                                                Monitor& monitor);
+/// Nothing where no chart needs a cut, or cuts did not lead to the bound: the journal's fallbacks say which. Charts are better
+/// squeezed then, which divides no face. Throws as refine() does.
+std::optional<Solution> refine_by_rectangles(const Refinement& run, const ProgressRange& range);
 
 }  // namespace atlas_refine

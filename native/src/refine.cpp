@@ -1,130 +1,115 @@
-// The whole method, top to bottom: charts, the road that cuts or the least intervention that holds the bound, the certificate.
+// The whole method, top to bottom: charts, the road, the certificate.
 #include "atlas_refine/refine.h"
 
-#include "input/split_charts.h"
+#include <algorithm>
+
+#include "input/check_atlas.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
-#include "pack/place_charts.h"
 #include "rectangles.h"
-#include "reduce/density.h"
-#include "reduce/re_embed.h"
-#include "reduce/reference.h"
-#include "reduce/squeeze.h"
-#include "report/measure_atlas.h"
+#include "report/certify.h"
 #include "report/options.h"
-#include "report/outcome.h"
-#include "support/monitor.h"
 #include "support/parallel.h"
+#include "whole.h"
 
 namespace atlas_refine {
 namespace {
 
-/// One call of refine(): the state that its steps hand on.
-class Refinement {
- public:
-  Refinement(const Atlas& atlas, const RefineOptions& options, Monitor& monitor, DebugSink* debug)
-      : atlas_(atlas),
-        options_(options),
-        monitor_(monitor),
-        outcome_(atlas, options, monitor, debug),
-        gap_(options.gap.value_or(Gap{})),
-        threads_(resolve_threads(options.threads)) {}
+bool within_limit(const RefineOptions& options, double distortion) {
+  return !options.max_distortion || distortion <= *options.max_distortion * (1 + 1e-9);
+}
 
-  RefineResult run() {
-    outcome_.begin_stage("input", 0, 0.02);
-    ChartSet set = split_charts(atlas_);
-    require_no_flips(atlas_, set);
-    outcome_.measure_input(set);
-    if (holds_already(set)) return outcome_.unchanged(gap_);
-    set_reference(set.charts, options_.reference, options_.importance);
-    if (options_.seams == Seams::Rectangles) {
-      if (auto cut = cut_into_rectangles(atlas_, set, options_, outcome_, monitor_)) return std::move(*cut);
-    }
-    return without_seams(std::move(set));
-  }
+/// The input is valid and at the bound; a gap counts only where one was asked for.
+bool holds_already(const InputAtlas& input, const RefineOptions& options) {
+  const Measures& before = input.measures;
+  if (before.pe_fixed_aspect < options.pe_bound || !within_limit(options, before.distortion)) return false;
+  if (!validate_split(input.set).valid()) return false;
+  const Vec2 box = box_of_aspect(uv_box(input.set.charts), options.box_aspect).size();
+  return !options.gap || gap_between_charts(input.set.charts) >= options.gap->length(box);
+}
 
- private:
-  /// The least intervention that holds the bound: charts are moved, or squeezed.
-  RefineResult without_seams(ChartSet set) {
-    const bool own_layout = !embed_where_needed(set) && certify_charts(set.charts).valid();
-    charts_ = std::move(set.charts);
-    outcome_.begin_stage("pack", 0.2, 0.4);
-    const bool scaled = set_density(charts_, options_.density);
-    const std::vector<Chart> placed = place_anew();
-    if (holds_placed(placed)) return outcome_.certified(Intervention::Moved, placed, gap_);
-    return squeezed(own_layout && !scaled, placed);
-  }
+RefineResult unchanged(const InputAtlas& input, const RefineOptions& options) {
+  RefineResult result{.corner_uvs = input.atlas.corner_uvs, .bound_met = true, .before = input.measures, .after = input.measures};
+  // An automatic gap asks nothing of an atlas that is left as it is.
+  result.gap = options.gap.value_or(Gap{std::min(Gap{}.value, input.measures.gap_between)});
+  result.charts = reports_of_input(input);
+  return result;
+}
 
-  bool gap_kept(const std::vector<Chart>& charts, double factor) const {
-    const Vec2 box = box_of_aspect(uv_box(charts), options_.box_aspect).size();
-    return gap_between_charts(charts) >= factor * gap_.length(box);
+void note_mirrored(const InputAtlas& input, Journal& journal) {
+  std::vector<int> mirrored;
+  for (int c = 0; c < static_cast<int>(input.set.mirrored.size()); ++c) {
+    if (input.set.mirrored[c]) mirrored.push_back(c);
   }
-  double pe(const std::vector<Chart>& charts) const {
-    return uv_area(charts) / box_of_aspect(uv_box(charts), options_.box_aspect).area();
-  }
-  bool distortion_allowed(double distortion) const { return !options_.max_distortion || distortion <= *options_.max_distortion; }
+  if (!mirrored.empty()) journal.repairs.push_back(charts_named(mirrored) + ": mirrored, turned over");
+}
 
-  /// Unchanged: the input is valid and at the bound; a gap counts only where one was asked for.
-  bool holds_already(const ChartSet& set) const {
-    const Measures& before = outcome_.before();
-    return before.pe_fixed_aspect >= options_.pe_bound && distortion_allowed(before.distortion) && validate_split(set).valid() &&
-           (!options_.gap || gap_kept(set.charts, 1));
+/// The road that was asked for; where the one that cuts does not lead to the bound, the one that does not.
+Solution solve(const Refinement& run, const ProgressRange& range) {
+  if (run.options.seams == Seams::Rectangles) {
+    if (auto cut = refine_by_rectangles(run, range)) return std::move(*cut);
   }
+  return refine_whole(run, range);
+}
 
-  /// Charts that overlap themselves, or hold polygons that do, are embedded anew; true where there was one.
-  bool embed_where_needed(ChartSet& set) {
-    outcome_.begin_stage("embed", 0.02, 0.2);
-    bool any = false;
-    for (int c = 0; c < static_cast<int>(set.charts.size()); ++c) {
-      monitor_.report(static_cast<double>(c) / set.charts.size());
-      if (certify_charts({set.charts[c]}).valid()) continue;
-      set.charts[c] = re_embed(set.charts[c], c, threads_, monitor_);
-      outcome_.re_embedded(c);
-      any = true;
-    }
-    return any;
-  }
+/// Why the result is not what was asked for; empty where it is.
+std::string shortfall(const InputAtlas& input, const RefineOptions& options, const Measures& after) {
+  const std::string figures =
+      "packing efficiency " + number_text("%.4f", after.pe_fixed_aspect) + " at E_d " + number_text("%.4f", after.distortion);
+  const std::string limit = options.max_distortion ? "a distortion of " + number_text("%g", *options.max_distortion) : "";
+  if (!within_limit(options, after.distortion))
+    return message_prefix(input.atlas) + "no atlas within " + limit + " was found; the least distorted one has " + figures;
+  if (after.pe_fixed_aspect >= options.pe_bound) return "";
+  return message_prefix(input.atlas) + "the bound " + number_text("%g", options.pe_bound) + " was not reached" +
+         (limit.empty() ? "" : " within " + limit) + "; the best found is " + figures;
+}
 
-  std::vector<Chart> place_anew() {
-    const PlaceOptions place{gap_, options_.box_aspect, options_.pe_bound, options_.seed, threads_};
-    std::vector<Chart> placed = place_charts(charts_, place, monitor_);
-    outcome_.show("placed", placed);
-    return placed;
-  }
+RefineResult result_of(const InputAtlas& input, const RefineOptions& options, const Solution& solution,
+                       CertifiedAtlas certified) {
+  RefineResult result{.corner_uvs = std::move(certified.corner_uvs),
+                      .cut = std::move(certified.cut),
+                      .intervention = solution.intervention,
+                      .before = input.measures,
+                      .after = certified.after,
+                      .gap = solution.gap,
+                      .price = solution.price,
+                      .ended = solution.ended};
+  const std::string missed = shortfall(input, options, result.after);
+  result.bound_met = missed.empty();
+  if (!result.bound_met && !(options.best_effort && within_limit(options, result.after.distortion)))
+    throw RefineError(ErrorCode::BoundNotReached, "squeeze", missed);
+  result.charts = std::move(certified.charts);
+  for (int c : solution.re_embedded) result.charts[c].re_embedded = true;
+  result.pieces = std::move(certified.pieces);
+  result.rectangles = solution.rectangles;
+  return result;
+}
 
-  bool holds_placed(const std::vector<Chart>& placed) const {
-    constexpr double kRounding = 1 + 1e-6;  // storing single precision must not lose the bound
-    return pe(placed) >= kRounding * options_.pe_bound && distortion_allowed(dirichlet_sums(placed).best_energy());
-  }
+void warn_of_early_end(const Solution& solution, Journal& journal) {
+  const char* why = solution.ended == Ended::Stalled           ? "stalled"
+                    : solution.ended == Ended::OutOfIterations ? "ran out of iterations"
+                                                               : nullptr;
+  if (why) journal.warnings.push_back(std::string("the optimisation ") + why + ": the distortion may not be at its least");
+}
 
-  RefineResult squeezed(bool own_layout, const std::vector<Chart>& placed) {
-    outcome_.begin_stage("squeeze", 0.4, 0.95);
-    std::vector<std::vector<Chart>> starts = {placed};
-    if (own_layout && gap_kept(charts_, kStartGap)) add_own_layout(starts);
-    Squeezed best = squeeze(starts, squeeze_options(options_, threads_), monitor_);
-    outcome_.squeezed(best);
-    return outcome_.certified(Intervention::Squeezed, best.charts, best.gap);
-  }
+RefineResult refine_input(const Atlas& atlas, const RefineOptions& options, Monitor& monitor, Journal& journal) {
+  journal.begin_stage("input", {0, 0.02});
+  const InputAtlas input = read_atlas(atlas, options.box_aspect);
+  require_no_flips(atlas, input.set);
+  note_mirrored(input, journal);
+  journal.show("input", charts_as_placed(input.set));
+  const bool holds = holds_already(input, options);
+  if (holds && !options.relax) return unchanged(input, options);
 
-  /// The artist's layout is a start beside the packer's; of a large atlas only the tighter one is tried.
-  void add_own_layout(std::vector<std::vector<Chart>>& starts) const {
-    constexpr std::size_t kLarge = 30000;
-    std::size_t triangles = 0;
-    for (const Chart& chart : charts_) triangles += chart.triangles.size();
-    if (triangles <= kLarge)
-      starts.push_back(charts_);
-    else if (pe(charts_) > pe(starts.front()))
-      starts.front() = charts_;
-  }
-
-  const Atlas& atlas_;
-  const RefineOptions& options_;
-  Monitor& monitor_;
-  Outcome outcome_;
-  Gap gap_;
-  int threads_;
-  std::vector<Chart> charts_;
-};
+  const Refinement run{input, options, monitor, journal, resolve_threads(options.threads)};
+  const Solution solution = solve(run, {0.02, 0.95});
+  journal.begin_stage("certify", {0.95, 1});
+  CertifiedAtlas certified = certify(input, solution.atlas, solution.gap, options);
+  if (holds && certified.after.distortion >= input.measures.distortion) return unchanged(input, options);
+  journal.show(to_string(solution.intervention), certified.stored);
+  warn_of_early_end(solution, journal);
+  return result_of(input, options, solution, std::move(certified));
+}
 
 }  // namespace
 
@@ -133,7 +118,16 @@ const char* version() { return ATLAS_REFINE_VERSION; }
 RefineResult refine(const Atlas& atlas, const RefineOptions& options, const ProgressFn& progress, DebugSink* debug) {
   check_options(atlas, options);
   RefineResult result;
-  run_monitored(progress, [&](Monitor& monitor) { result = Refinement(atlas, options, monitor, debug).run(); });
+  run_monitored(progress, [&](Monitor& monitor) {
+    Journal journal(monitor, debug, options.box_aspect);
+    result = refine_input(atlas, options, monitor, journal);
+    journal.end_stage();
+    result.iterations = journal.iterations;
+    result.repairs = std::move(journal.repairs);
+    result.fallbacks = std::move(journal.fallbacks);
+    result.warnings = std::move(journal.warnings);
+    result.timings = std::move(journal.timings);
+  });
   return result;
 }
 

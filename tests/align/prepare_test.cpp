@@ -11,8 +11,8 @@ namespace {
 void expect_prepared(const Chart& chart) {
   const PreparedChart prepared = prepare_chart(chart);
   const SplitMesh& mesh = prepared.mesh;
-  ASSERT_TRUE(prepared.is_disk);
-  EXPECT_EQ(prepared.holes_cut, static_cast<int>(chart.boundary_loops.size()) - 1);
+  ASSERT_TRUE(prepared.opening.is_disk);
+  EXPECT_EQ(prepared.opening.holes_cut, static_cast<int>(chart.boundary_loops.size()) - 1);
   testing::expect_conforming(mesh);
   testing::expect_positive(mesh.uvs, mesh.triangles);
   EXPECT_EQ(mesh_topology(mesh.vertex_count(), mesh.triangles).euler_characteristic, 1);

@@ -20,9 +20,9 @@
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "obj_file.h"
-#include "reduce/density.h"
-#include "reduce/re_embed.h"
+#include "reduce/goal.h"
 #include "reduce/reduce.h"
+#include "repair/re_embed.h"
 #include "solve/symmetric_dirichlet.h"
 
 namespace atlas_refine {
@@ -52,7 +52,7 @@ struct Charts {
     file_box = uv_box(set.charts).size();
     charts = std::move(set.charts);
     for (const Chart& chart : charts) scales.push_back(dirichlet_sums(chart).best_scale());
-    set_density(charts, Density::Equal);
+    set_density(charts, wanted_density(charts, Density::Equal), Density::Equal);
   }
   Vec2 file_box;
 };
@@ -62,7 +62,7 @@ double energy_of_optima(const std::vector<Chart>& charts, const std::function<Ch
   DirichletSums sums;
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
     std::vector<Chart> alone = {optimum(c)};
-    set_density(alone, Density::Equal);
+    set_density(alone, wanted_density(alone, Density::Equal), Density::Equal);
     sums += dirichlet_sums(alone);
   }
   return sums.best_energy();
@@ -109,9 +109,9 @@ Eigen::SparseMatrix<double> hessian(const std::vector<Chart>& charts, Eigen::Vec
   for (const Chart& chart : charts) {
     for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
       const Triangle& v = chart.triangles[t];
-      const double weight = chart.rest[t].area;
+      const double weight = chart.surface[t].area;
       const TriangleDerivatives d =
-          symmetric_dirichlet_derivatives(chart.rest[t], chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]]);
+          symmetric_dirichlet_derivatives(chart.surface[t].inverse_edges, chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]]);
       for (int k = 0; k < 3; ++k) {
         const int i = first + v[k], j = first + v[(k + 1) % 3];
         gradient.segment<2>(Eigen::Index{2} * i) += weight * d.gradient[k];

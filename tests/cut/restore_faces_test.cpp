@@ -6,7 +6,7 @@
 namespace atlas_refine {
 namespace {
 
-std::vector<std::pair<Vec2, int>> border(const CutPiece& piece) {
+std::vector<std::pair<Vec2, int>> border(const Piece& piece) {
   std::vector<std::pair<Vec2, int>> out;
   for (const auto& loop : piece.mesh.boundary_loops) {
     for (int v : loop) out.emplace_back(piece.mesh.uvs[v], piece.points[v]);
@@ -18,8 +18,8 @@ TEST(RestoreFaces, RemovesVerticesAndKeepsTheRest) {
   int removed_in_all = 0;
   for (const Atlas& atlas : testing::many_atlases()) {
     testing::Laid laid = testing::laid(atlas);
-    for (CutPiece& piece : laid.cut.pieces) {
-      const CutPiece before = piece;
+    for (Piece& piece : laid.cut.pieces) {
+      const Piece before = piece;
       const Chart& source = laid.set.charts[piece.chart];
       const int removed = restore_faces(piece, source, 1);
       removed_in_all += removed;
@@ -35,7 +35,7 @@ TEST(RestoreFaces, RemovesVerticesAndKeepsTheRest) {
         EXPECT_EQ(piece.mesh.triangle_faces[t], source.triangle_faces[piece.sources[t]]);
         const RestTriangle rest =
             rest_of_part(source, piece.sources[t], {piece.supports[v[0]], piece.supports[v[1]], piece.supports[v[2]]});
-        EXPECT_NEAR(rest.area, piece.mesh.rest[t].area, 1e-12);
+        EXPECT_NEAR(rest.area, piece.mesh.surface[t].area, 1e-12);
       }
     }
   }
@@ -44,7 +44,7 @@ TEST(RestoreFaces, RemovesVerticesAndKeepsTheRest) {
 
 TEST(RestoreFaces, AnUndividedChartHasNothingToRestore) {
   testing::Laid laid = testing::laid(shapes::mesh(shapes::rectangle(1, 0.7), 0.1));
-  CutPiece& piece = laid.cut.pieces.front();
+  Piece& piece = laid.cut.pieces.front();
   restore_faces(piece, laid.set.charts.front(), 1);
   EXPECT_EQ(restore_faces(piece, laid.set.charts.front(), 1), 0);
 }

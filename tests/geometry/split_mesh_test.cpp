@@ -37,9 +37,10 @@ TEST(SplitMesh, StartsAsTheChart) {
     const Chart back = mesh.to_chart(chart);
     EXPECT_EQ(back.triangle_faces, chart.triangle_faces);
     EXPECT_EQ(back.boundary_loops.size(), chart.boundary_loops.size());
-    for (std::size_t t = 0; t < chart.rest.size(); ++t) {
-      EXPECT_NEAR(back.rest[t].area, chart.rest[t].area, 1e-14);
-      EXPECT_LT((back.rest[t].inverse_edges - chart.rest[t].inverse_edges).norm(), 1e-9 * chart.rest[t].inverse_edges.norm());
+    for (std::size_t t = 0; t < chart.surface.size(); ++t) {
+      EXPECT_NEAR(back.surface[t].area, chart.surface[t].area, 1e-14);
+      EXPECT_LT((back.surface[t].inverse_edges - chart.surface[t].inverse_edges).norm(),
+                1e-9 * chart.surface[t].inverse_edges.norm());
     }
   }
 }
@@ -54,7 +55,7 @@ TEST(SplitMesh, SplitsKeepTheSurface) {
     EXPECT_EQ(mesh.vertex_count(), chart.vertex_count() + 150);
     const Chart parts = mesh.to_chart(chart);
     EXPECT_NEAR(rest_area(parts), rest_area(chart), 1e-12);
-    for (const RestTriangle& rest : parts.rest) EXPECT_GT(rest.area, 0);
+    for (const RestTriangle& rest : parts.surface) EXPECT_GT(rest.area, 0);
     for (int v = 0; v < mesh.vertex_count(); ++v) {
       EXPECT_LT((supported(chart.uvs, mesh.supports[v]) - mesh.uvs[v]).norm(), 1e-12);
       const auto& weights = mesh.supports[v].weights;

@@ -13,7 +13,7 @@ namespace {
 
 double surface_area(const Chart& chart) {
   double sum = 0;
-  for (const RestTriangle& rest : chart.rest) sum += rest.area;
+  for (const RestTriangle& rest : chart.surface) sum += rest.area;
   return sum;
 }
 

@@ -24,9 +24,9 @@ void expect_invariants(const Atlas& atlas, const ChartSet& set) {
     EXPECT_EQ(uv, atlas.corner_uvs[c]);
   }
   for (const Chart& chart : set.charts) {
-    ASSERT_EQ(chart.rest.size(), chart.triangles.size());
+    ASSERT_EQ(chart.surface.size(), chart.triangles.size());
     ASSERT_EQ(chart.triangle_faces.size(), chart.triangles.size());
-    for (const RestTriangle& rest : chart.rest) {
+    for (const RestTriangle& rest : chart.surface) {
       EXPECT_TRUE(rest.inverse_edges.allFinite());
       EXPECT_GT(rest.area, 0);
     }

@@ -73,8 +73,16 @@ TEST(Measures, AFixedAspect) {
   Atlas atlas = strip(4);  // 4 x 1
   EXPECT_DOUBLE_EQ(measure(atlas, 0).pe_fixed_aspect, 1);
   EXPECT_DOUBLE_EQ(measure(atlas, 1).pe_fixed_aspect, 0.25);
-  EXPECT_DOUBLE_EQ(measure(atlas, 4).pe_fixed_aspect, 1);
-  EXPECT_DOUBLE_EQ(measure(atlas, 8).pe_fixed_aspect, 0.5);
+  // A texture of W:H is filled by [0, 1]^2; lengths are those on the texture.
+  for (Vec2& uv : atlas.corner_uvs) uv.x() *= 0.25;
+  const Measures filled = measure(atlas, 4);
+  EXPECT_DOUBLE_EQ(filled.pe_fixed_aspect, 1);
+  EXPECT_DOUBLE_EQ(filled.unit_square_share, 1);
+  EXPECT_DOUBLE_EQ(filled.distortion, 1);
+  EXPECT_DOUBLE_EQ(filled.box_width, 1);
+  EXPECT_GT(measure(atlas, 1).distortion, 1.5);
+  for (Vec2& uv : atlas.corner_uvs) uv.y() *= 0.5;  // as a program that fills half of a 2:1 texture's square
+  EXPECT_DOUBLE_EQ(measure(atlas, 2).pe_fixed_aspect, 0.5);
   EXPECT_THROW(measure(atlas, -1), RefineError);
 }
 

@@ -133,8 +133,9 @@ TEST(Reduce, StopsAtTheLargestDistortion) {
   const ReduceResult result = reduce_distortion(problem);
   EXPECT_EQ(result.status, ReduceStatus::TooDistorted);
   EXPECT_FALSE(result.reached);
-  EXPECT_LE(result.energy, limit);
-  EXPECT_GT(result.energy, 1 + 0.7 * (limit - 1));  // what is allowed is used
+  EXPECT_TRUE(result.within_limit);
+  EXPECT_LE(result.distortion, limit);
+  EXPECT_GT(result.distortion, 1 + 0.7 * (limit - 1));  // what is allowed is used
   EXPECT_GT(result.pe, packing_efficiency(charts));
   checked(problem, result);
 }
@@ -155,6 +156,7 @@ TEST(Reduce, StopsWhereDistortionIsEnough) {
   const double enough = 1 + 2 * (best.energy - 1);
   const ReduceResult early = reduce_distortion({.charts = charts, .pe_target = 0.8, .enough_distortion = enough});
   EXPECT_TRUE(early.reached);
+  EXPECT_EQ(early.status, ReduceStatus::Enough);
   EXPECT_LE(early.energy, enough);
   EXPECT_LT(early.iterations, best.iterations);
 }

@@ -94,7 +94,7 @@ TEST(CutFaces, TheSurfaceStaysClosedAlsoAfterFacesAreRestored) {
     for (int round = 0; round < 2; ++round) {
       const CutFaces out = faces_of(laid);
       EXPECT_NEAR(border_length(out.positions, edge_uses(out.mesh.face_offsets, out.mesh.corner_vertices)), before, 1e-9);
-      for (CutPiece& piece : laid.cut.pieces) restore_faces(piece, laid.set.charts[piece.chart], 1);
+      for (Piece& piece : laid.cut.pieces) restore_faces(piece, laid.set.charts[piece.chart], 1);
     }
   }
 }

@@ -36,7 +36,7 @@ Sample random_sample(Rng& rng) {
 }
 
 TriangleDerivatives derivatives(const Sample& s, const Eigen::VectorXd& x, bool project) {
-  return symmetric_dirichlet_derivatives(s.rest, x.head<2>(), x.segment<2>(2), x.tail<2>(), project);
+  return symmetric_dirichlet_derivatives(s.rest.inverse_edges, x.head<2>(), x.segment<2>(2), x.tail<2>(), project);
 }
 
 Eigen::VectorXd stacked_gradient(const TriangleDerivatives& d) {
@@ -75,7 +75,7 @@ TEST(SymmetricDirichlet, DerivativesMatchFiniteDifferences) {
   for (int trial = 0; trial < 200; ++trial) {
     const Sample s = random_sample(rng);
     const auto energy = [&](const Eigen::VectorXd& x) {
-      return symmetric_dirichlet(jacobian(s.rest, x.head<2>(), x.segment<2>(2), x.tail<2>()));
+      return symmetric_dirichlet(jacobian(s.rest.inverse_edges, x.head<2>(), x.segment<2>(2), x.tail<2>()));
     };
     const TriangleDerivatives d = derivatives(s, s.x, false);
     EXPECT_NEAR(d.energy, energy(s.x), 1e-12 * d.energy);

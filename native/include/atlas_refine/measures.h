@@ -11,7 +11,7 @@ namespace atlas_refine {
 /// Figures of one atlas. Lengths in UV units unless said otherwise. "Gap" is the smallest distance between boundaries.
 struct Measures {
   double pe = 0;               ///< packing efficiency: sum of UV triangle areas / area of the UV bounding box
-  double pe_fixed_aspect = 0;  ///< the same against the smallest box of the asked aspect; equals pe where the aspect is free
+  double pe_fixed_aspect = 0;  ///< the same against the smallest box of the texture's shape; equals pe where the aspect is free
   double box_width = 0;        ///< UV bounding box
   double box_height = 0;
   double unit_square_share = 0;  ///< sum of UV triangle areas: the share of the texture, where the UVs lie in [0, 1]^2
@@ -40,7 +40,8 @@ struct Validity {
   int crossings = 0;        ///< pairs of boundary edges that cross or touch
 };
 
-/// Measures an atlas as it is. `box_aspect` is width / height of the box for `pe_fixed_aspect`, 0 = free.
+/// Measures an atlas as it is. `box_aspect` is width / height of the texture that [0, 1]^2 stands for, 0 = free: with W:H all
+/// lengths are taken with u stretched by W / H; box_width and box_height stay in UV units.
 /// Throws RefineError(BadInput) for arrays that do not fit together or hold NaN.
 Measures measure(const Atlas& atlas, double box_aspect = 0);
 

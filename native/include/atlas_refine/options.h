@@ -45,7 +45,7 @@ struct RectangleOptions {
 struct RefineOptions {
   double pe_bound = 0.80;  ///< in (0, 1); reached or the call throws BoundNotReached
   Seams seams = Seams::None;
-  double box_aspect = 0;   ///< width / height of the output box; 0 = free, 1 = square
+  double box_aspect = 0;   ///< width / height of the texture, which [0, 1]^2 stands for; 0 = a free box, 1 = square
   std::optional<Gap> gap;  ///< hard where given; else 0.0025 of the diagonal, reduced only as far as the bound needs
   std::optional<double> max_distortion;  ///< largest E_d allowed, >= 1
   bool relax = false;                    ///< go on to the least distortion under the bound where less would already hold it

@@ -17,7 +17,8 @@ namespace atlas_refine {
 
 /// Brings `atlas` to `options.pe_bound`. With Seams::None only UVs change; faces, corners and their order are the input's.
 /// Throws RefineError: BadOption, BadInput, BoundNotReached, NotCertified, Cancelled. Nothing is modified on failure.
-/// The UVs of a changed atlas lie in [0, 1]^2, box corner at the origin, longer box side 1.
+/// The UVs of a changed atlas lie in [0, 1]^2, box corner at the origin. A free box has its longer side 1; with a fixed aspect
+/// W:H they are those of a texture of W:H: all lengths (gap, distortion, density) are taken with u stretched by W / H.
 RefineResult refine(const Atlas& atlas, const RefineOptions& options = {}, const ProgressFn& progress = {},
                     DebugSink* debug = nullptr);
 

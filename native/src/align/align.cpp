@@ -119,8 +119,8 @@ class Aligner {
   AxisAlignedChart run() {
     PreparedChart prepared = prepare_chart(source_);
     AxisAlignedChart out{.way = AxisAlignedChart::Way::AsItIs, .mesh = SplitMesh(source_), .boundary = {}, .quarter_turns = {}};
-    if (!prepared.is_disk || source_.triangles.size() < kLeastTriangles) return as_it_is(std::move(out));
-    out.holes_cut = prepared.holes_cut;
+    if (!prepared.opening.is_disk || source_.triangles.size() < kLeastTriangles) return as_it_is(std::move(out));
+    out.holes_cut = prepared.opening.holes_cut;
     chart_ = prepared.mesh.to_chart(source_);
     auto uvs = deformed(out);
     if (!uvs) uvs = rectangle(out);

@@ -34,11 +34,11 @@ class Deformation {
  public:
   Deformation(const Chart& chart, const AlignTarget& target) : boundary_(target.boundary), turns_(target.quarter_turns) {
     double surface = 0;
-    for (const RestTriangle& rest : chart.rest) surface += rest.area;
+    for (const RestTriangle& rest : chart.surface) surface += rest.area;
     scale_ = dirichlet_sums(chart).best_scale() / std::sqrt(surface);
     for (const Vec2& uv : chart.uvs) x_.push_back(scale_ * uv);
     triangles_ = chart.triangles;
-    rest_ = chart.rest;
+    rest_.assign(chart.surface.begin(), chart.surface.end());
     for (RestTriangle& rest : rest_) {
       rest.inverse_edges *= std::sqrt(surface);
       rest.area /= surface;
@@ -126,7 +126,7 @@ class Deformation {
     double sum = 0;
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const Triangle& v = triangles_[t];
-      sum += rest_[t].area * symmetric_dirichlet(jacobian(rest_[t], x[v[0]], x[v[1]], x[v[2]]));
+      sum += rest_[t].area * symmetric_dirichlet(jacobian(rest_[t].inverse_edges, x[v[0]], x[v[1]], x[v[2]]));
     }
     return sum;
   }
@@ -188,7 +188,7 @@ class Deformation {
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const Triangle& v = triangles_[t];
       const double weight = rest_[t].area;
-      const auto d = symmetric_dirichlet_derivatives(rest_[t], x_[v[0]], x_[v[1]], x_[v[2]]);
+      const auto d = symmetric_dirichlet_derivatives(rest_[t].inverse_edges, x_[v[0]], x_[v[1]], x_[v[2]]);
       for (int k = 0; k < 3; ++k) {
         gradient_[v[k]] += weight * d.gradient[k];
         matrix_.diagonal[v[k]] += weight * d.diagonal[k];

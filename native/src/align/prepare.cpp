@@ -1,49 +1,13 @@
-// Cutting holes open and dividing edges.
+// Dividing edges.
 #include "align/prepare.h"
 
-#include <algorithm>
-#include <queue>
+#include <utility>
 
 namespace atlas_refine {
 namespace {
 
 // Boundary edges are divided until they are at most this fraction of the boundary long: corners can only lie at vertices.
 constexpr double kLongestEdge = 0.08;
-
-/// The shortest edge path from one boundary loop (not the first) to any other: as sides, from its one end to the other.
-std::vector<Side> path_between_loops(const SplitMesh& mesh, const std::vector<std::vector<int>>& loops) {
-  std::vector<int> loop_of(mesh.vertex_count(), -1);
-  for (std::size_t l = 0; l < loops.size(); ++l) {
-    for (int v : loops[l]) loop_of[v] = static_cast<int>(l);
-  }
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  std::vector<double> distance(mesh.vertex_count(), std::numeric_limits<double>::infinity());
-  std::vector<Side> reached_by(mesh.vertex_count());
-  for (int v : loops[1]) {
-    distance[v] = 0;
-    queue.emplace(0, v);
-  }
-  while (!queue.empty()) {
-    const auto [d, v] = queue.top();
-    queue.pop();
-    if (d > distance[v]) continue;
-    if (loop_of[v] >= 0 && loop_of[v] != 1) {
-      std::vector<Side> path;
-      for (int walk = v; reached_by[walk].triangle >= 0; walk = mesh.from(path.back())) path.push_back(reached_by[walk]);
-      return path;
-    }
-    for (const Side& s : mesh.fan(v)) {
-      const int w = mesh.to(s);
-      const double through = d + (mesh.uvs[w] - mesh.uvs[v]).norm();
-      if (mesh.is_boundary(s) || through >= distance[w]) continue;
-      distance[w] = through;
-      reached_by[w] = s;
-      queue.emplace(through, w);
-    }
-  }
-  return {};
-}
 
 void divide_long_boundary_edges(SplitMesh& mesh) {
   for (const auto& loop : mesh.boundary_loops()) {
@@ -81,29 +45,14 @@ void divide_bridges(SplitMesh& mesh) {
   }
 }
 
-int edge_count(const SplitMesh& mesh) {
-  int doubled = 0;
-  for (const auto& n : mesh.neighbours) {
-    for (int other : n) doubled += other < 0 ? 2 : 1;
-  }
-  return doubled / 2;
-}
-
 }  // namespace
 
 PreparedChart prepare_chart(const Chart& chart) {
-  PreparedChart out{SplitMesh(chart)};
-  SplitMesh& mesh = out.mesh;
-  for (auto loops = mesh.vertex_loops(); loops.size() > 1; loops = mesh.vertex_loops()) {
-    const std::vector<Side> path = path_between_loops(mesh, loops);
-    if (path.empty()) return out;
-    mesh.cut(path);
-    ++out.holes_cut;
-  }
-  out.is_disk = mesh.vertex_count() - edge_count(mesh) + mesh.triangle_count() == 1;
-  if (!out.is_disk) return out;
-  divide_long_boundary_edges(mesh);
-  divide_bridges(mesh);
+  PreparedChart out{SplitMesh(chart), {}};
+  out.opening = open_to_disk(out.mesh);
+  if (!out.opening.is_disk) return out;
+  divide_long_boundary_edges(out.mesh);
+  divide_bridges(out.mesh);
   return out;
 }
 

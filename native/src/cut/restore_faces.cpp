@@ -39,8 +39,12 @@ bool lies_between(const Support& v, const Support& a, const Support& b) {
 
 class Restorer {
  public:
-  Restorer(CutPiece& piece, const Chart& source, double scale)
-      : piece_(piece), source_(source), scale_(scale), around_(piece.mesh.vertex_count()) {
+  Restorer(Piece& piece, const Chart& source, double scale)
+      : piece_(piece),
+        source_(source),
+        scale_(scale),
+        shapes_(piece.mesh.surface.begin(), piece.mesh.surface.end()),
+        around_(piece.mesh.vertex_count()) {
     for (int t = 0; t < static_cast<int>(piece.mesh.triangles.size()); ++t) {
       for (int v : piece.mesh.triangles[t]) around_[v].push_back(t);
     }
@@ -100,7 +104,7 @@ class Restorer {
     const auto& uvs = piece_.mesh.uvs;
     if (orientation(uvs[t[0]], uvs[t[1]], uvs[t[2]]) <= 0) return false;
     rest = rest_of_part(source_, piece_.sources[parts[0]], {piece_.supports[t[0]], piece_.supports[t[1]], piece_.supports[t[2]]});
-    return symmetric_dirichlet(scale_ * jacobian(rest, uvs[t[0]], uvs[t[1]], uvs[t[2]])) < kMostDistorted;
+    return symmetric_dirichlet(scale_ * jacobian(rest.inverse_edges, uvs[t[0]], uvs[t[1]], uvs[t[2]])) < kMostDistorted;
   }
 
   int after(int t, int v) const {
@@ -113,7 +117,7 @@ class Restorer {
   void set(int t, const Triangle& triangle, const RestTriangle& rest) {
     for (int w : piece_.mesh.triangles[t]) std::erase(around_[w], t);
     piece_.mesh.triangles[t] = triangle;
-    piece_.mesh.rest[t] = rest;
+    shapes_[t] = rest;
     for (int w : triangle) around_[w].push_back(t);
   }
 
@@ -136,12 +140,13 @@ class Restorer {
     for (std::size_t t = 0; t < piece_.mesh.triangles.size(); ++t) {
       if (piece_.mesh.triangles[t][0] < 0) continue;
       for (int k = 0; k < 3; ++k) piece_.mesh.triangles[triangles][k] = number[piece_.mesh.triangles[t][k]];
-      piece_.mesh.rest[triangles] = piece_.mesh.rest[t];
+      shapes_[triangles] = shapes_[t];
       piece_.mesh.triangle_faces[triangles] = piece_.mesh.triangle_faces[t];
       piece_.sources[triangles++] = piece_.sources[t];
     }
     piece_.mesh.triangles.resize(triangles);
-    piece_.mesh.rest.resize(triangles);
+    shapes_.resize(triangles);
+    piece_.mesh.surface = Surface(std::move(shapes_));
     piece_.mesh.triangle_faces.resize(triangles);
     piece_.sources.resize(triangles);
     for (auto& loop : piece_.mesh.boundary_loops) {
@@ -149,14 +154,15 @@ class Restorer {
     }
   }
 
-  CutPiece& piece_;
+  Piece& piece_;
   const Chart& source_;
   double scale_;
+  std::vector<RestTriangle> shapes_;
   std::vector<std::vector<int>> around_;
 };
 
 }  // namespace
 
-int restore_faces(CutPiece& piece, const Chart& source, double scale) { return Restorer(piece, source, scale).run(); }
+int restore_faces(Piece& piece, const Chart& source, double scale) { return Restorer(piece, source, scale).run(); }
 
 }  // namespace atlas_refine

@@ -21,7 +21,7 @@ std::map<std::pair<int, int>, double> surface_lengths(const Chart& chart) {
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
     const Triangle& triangle = chart.triangles[t];
     if (on_boundary[triangle[0]] + on_boundary[triangle[1]] + on_boundary[triangle[2]] < 2) continue;
-    const Mat2 edges = chart.rest[t].inverse_edges.inverse();
+    const Mat2 edges = chart.surface[t].inverse_edges.inverse();
     const Vec2 e1 = edges.col(0);
     const Vec2 e2 = edges.col(1);
     lengths[{triangle[0], triangle[1]}] = e1.norm();

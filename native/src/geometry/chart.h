@@ -1,28 +1,21 @@
 // A chart: the value that passes between the stages.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <vector>
 
 #include "atlas_refine/atlas.h"
+#include "geometry/surface.h"
 
 namespace atlas_refine {
 
-using Mat2 = Eigen::Matrix2d;
 using Triangle = std::array<int, 3>;
-
-/// The undeformed shape of one triangle: the 3D triangle laid flat, in surface units.
-struct RestTriangle {
-  Mat2 inverse_edges;  ///< inverse of the 2x2 matrix whose columns are the flat edges p1 - p0 and p2 - p0
-  double area = 0;     ///< weight in E_d, eq. (9); > 0
-};
 
 /// A connected piece of the UV map. Vertices are UV vertices: one per fan of corners that share UVs.
 struct Chart {
   std::vector<Vec2> uvs;                         ///< one per UV vertex
   std::vector<Triangle> triangles;               ///< local vertex indices, counterclockwise in the UV plane
-  std::vector<RestTriangle> rest;                ///< one per triangle
+  Surface surface;                               ///< one shape per triangle
   std::vector<int> triangle_faces;               ///< one per triangle: the input face it came from
   std::vector<std::vector<int>> boundary_loops;  ///< vertex loops, the chart on the left; the loop of largest |area| first
 

@@ -58,8 +58,8 @@ RestTriangle rest_of_part(const Chart& source, int triangle, const std::array<Su
   const Vec3 d1 = weights[1] - weights[0], d2 = weights[2] - weights[0];
   Mat2 shares;
   shares << d1[1], d2[1], d1[2], d2[2];
-  const Mat2 flat = source.rest[triangle].inverse_edges.inverse();
-  return {(flat * shares).inverse(), source.rest[triangle].area * shares.determinant()};
+  const Mat2 flat = source.surface[triangle].inverse_edges.inverse();
+  return {(flat * shares).inverse(), source.surface[triangle].area * shares.determinant()};
 }
 
 SplitMesh::SplitMesh(const Chart& chart) : uvs(chart.uvs), triangles(chart.triangles) {
@@ -252,12 +252,13 @@ Chart SplitMesh::to_chart(const Chart& source) const {
   out.uvs = uvs;
   out.triangles = triangles;
   out.boundary_loops = vertex_loops();
+  std::vector<RestTriangle> parts;
   for (int t = 0; t < triangle_count(); ++t) {
     const int s = sources[t];
     out.triangle_faces.push_back(source.triangle_faces[s]);
-    out.rest.push_back(
-        rest_of_part(source, s, {supports[triangles[t][0]], supports[triangles[t][1]], supports[triangles[t][2]]}));
+    parts.push_back(rest_of_part(source, s, {supports[triangles[t][0]], supports[triangles[t][1]], supports[triangles[t][2]]}));
   }
+  out.surface = Surface(std::move(parts));
   return out;
 }
 

@@ -34,9 +34,7 @@ std::vector<Vec2> tutte_disk(const Chart& chart) {
   for (std::size_t l = 1; l < boundary.loop_length.size(); ++l) {
     if (boundary.loop_length[l] > boundary.loop_length[outer]) outer = l;
   }
-  double surface = 0;
-  for (const RestTriangle& rest : chart.rest) surface += rest.area;
-  const double radius = std::sqrt(surface / std::numbers::pi);
+  const double radius = std::sqrt(chart.surface.area() / std::numbers::pi);
   std::vector<Vec2> circle;
   for (int b = 0; b < boundary.size(); ++b) {
     if (boundary.loop[b] != static_cast<int>(outer)) continue;

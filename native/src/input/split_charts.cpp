@@ -34,7 +34,7 @@ class Splitter {
     orient_charts();
     number_vertices();
     for (int f = 0; f < atlas_.face_count(); ++f) add_face(f);
-    give_slivers_a_shape();
+    make_surfaces();
     for (Chart& chart : set_.charts) set_boundary(chart);
     return std::move(set_);
   }
@@ -64,6 +64,7 @@ class Splitter {
       ++count;
     }
     set_.charts.resize(count);
+    rest_.resize(count);
   }
 
   /// A chart is mirrored where the UV area of its faces, wound as the input has them, sums to less than zero. Then u is negated.
@@ -140,7 +141,7 @@ class Splitter {
     Chart& chart = set_.charts[face_charts_[face]];
     chart.triangles.push_back({set_.corners[a].vertex, set_.corners[b].vertex, set_.corners[c].vertex});
     chart.triangle_faces.push_back(face);
-    chart.rest.push_back(rest_from_space(position(a), position(b), position(c)));
+    rest_[face_charts_[face]].push_back(rest_from_space(position(a), position(b), position(c)));
     return orientation(uv(a), uv(b), uv(c)) > 0;
   }
 
@@ -162,30 +163,33 @@ class Splitter {
   }
 
   /// Triangles without a shape in space take the one they have in the UV plane, at the scale of their chart, or an equilateral.
-  void give_slivers_a_shape() {
+  void make_surfaces() {
     double area = 0;
     std::size_t count = 0;
-    for (const Chart& chart : set_.charts) {
-      count += chart.rest.size();
-      for (const RestTriangle& rest : chart.rest) area += rest.area;
+    for (const auto& shapes : rest_) {
+      count += shapes.size();
+      for (const RestTriangle& rest : shapes) area += rest.area;
     }
     const double mean = area > 0 ? area / static_cast<double>(count) : 1;
-    for (Chart& chart : set_.charts) give_slivers_a_shape(chart, mean);
+    for (int k = 0; k < chart_count(); ++k) {
+      give_slivers_a_shape(set_.charts[k], mean, rest_[k]);
+      set_.charts[k].surface = Surface(std::move(rest_[k]));
+    }
   }
 
-  static void give_slivers_a_shape(Chart& chart, double mean_area) {
+  static void give_slivers_a_shape(const Chart& chart, double mean_area, std::vector<RestTriangle>& shapes) {
     double surface = 0, plane = 0;
     for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
       const Triangle& v = chart.triangles[t];
-      if (chart.rest[t].area == 0) continue;
-      surface += chart.rest[t].area;
+      if (shapes[t].area == 0) continue;
+      surface += shapes[t].area;
       plane += 0.5 * std::abs(doubled_area(chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]]));
     }
     const double ratio = std::sqrt(surface / plane);
     const double scale = ratio > 0 && std::isfinite(ratio) ? ratio : 1;
     for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
       const Triangle& v = chart.triangles[t];
-      RestTriangle& rest = chart.rest[t];
+      RestTriangle& rest = shapes[t];
       if (rest.area > 0) continue;
       rest = rest_from_plane(chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]], scale);
       if (rest.area == 0) rest = rest_equilateral(mean_area);
@@ -214,6 +218,7 @@ class Splitter {
   EdgeJoins joins_;
   ChartSet set_;
   std::vector<int> face_charts_;
+  std::vector<std::vector<RestTriangle>> rest_;  ///< of each chart
   std::vector<int> scratch_corners_;
 };
 
@@ -230,11 +235,13 @@ std::vector<Chart> charts_as_placed(const ChartSet& set) {
     if (!set.mirrored[k]) continue;
     for (Vec2& uv : charts[k].uvs) uv.x() = -uv.x();
     for (Triangle& t : charts[k].triangles) std::swap(t[1], t[2]);
-    for (RestTriangle& rest : charts[k].rest) {
+    std::vector<RestTriangle> turned(charts[k].surface.begin(), charts[k].surface.end());
+    for (RestTriangle& rest : turned) {
       // The edges change places and the flat triangle is turned over, to stay counterclockwise.
       rest.inverse_edges.row(0).swap(rest.inverse_edges.row(1));
       rest.inverse_edges.col(1) *= -1;
     }
+    charts[k].surface = Surface(std::move(turned));
     for (std::vector<int>& loop : charts[k].boundary_loops) std::reverse(loop.begin(), loop.end());
   }
   return charts;

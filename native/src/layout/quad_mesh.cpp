@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "geometry/axis_trails.h"
 #include "geometry/plane.h"
+#include "layout/axis_trails.h"
 
 namespace atlas_refine {
 namespace {
@@ -40,7 +40,7 @@ class QuadMeshMaker {
  private:
   double surface_length(const Side& side) const {
     const int s = mesh_.sources[side.triangle];
-    const Mat2 flat = source_.rest[s].inverse_edges.inverse();
+    const Mat2 flat = source_.surface[s].inverse_edges.inverse();
     const auto place = [&](int vertex) -> Vec2 {
       return flat * weights_on(mesh_.supports[vertex], source_.triangles[s]).tail<2>();
     };

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/axis_aligned_chart.h"
-#include "geometry/axis_trails.h"
+#include "layout/axis_trails.h"
 
 namespace atlas_refine {
 

@@ -5,7 +5,7 @@
 
 #include "atlas_refine/options.h"
 #include "geometry/axis_aligned_chart.h"
-#include "geometry/axis_trails.h"
+#include "layout/axis_trails.h"
 #include "support/monitor.h"
 
 namespace atlas_refine {

@@ -12,13 +12,14 @@ namespace atlas_refine {
 
 namespace {
 
-Mat2 uv_edges(const Chart& chart, std::size_t triangle) {
-  const Triangle& v = chart.triangles[triangle];
+Mat2 uv_edges(const Triangle& v, const std::vector<Vec2>& uvs) {
   Mat2 edges;
-  edges.col(0) = chart.uvs[v[1]] - chart.uvs[v[0]];
-  edges.col(1) = chart.uvs[v[2]] - chart.uvs[v[0]];
+  edges.col(0) = uvs[v[1]] - uvs[v[0]];
+  edges.col(1) = uvs[v[2]] - uvs[v[0]];
   return edges;
 }
+
+Mat2 uv_edges(const Chart& chart, std::size_t triangle) { return uv_edges(chart.triangles[triangle], chart.uvs); }
 
 /// |J|^2 and |J^-1|^2 = |J|^2 / det^2 of one triangle. One without UV area is left out: it would make every sum infinite.
 /// The determinant is taken factor by factor, so that it is zero where the UV edges are parallel.
@@ -51,8 +52,16 @@ double DirichletSums::best_energy() const {
 DirichletSums dirichlet_sums(const Chart& chart) {
   DirichletSums sums;
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    add_triangle(uv_edges(chart, t), chart.rest[t].inverse_edges, chart.rest[t].area, sums);
+    add_triangle(uv_edges(chart, t), chart.surface[t].inverse_edges, chart.surface[t].area, sums);
   }
+  return sums;
+}
+
+DirichletSums dirichlet_sums(const std::vector<RestTriangle>& rest, const std::vector<Triangle>& triangles,
+                             const std::vector<Vec2>& uvs) {
+  DirichletSums sums;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    add_triangle(uv_edges(triangles[t], uvs), rest[t].inverse_edges, rest[t].area, sums);
   return sums;
 }
 
@@ -78,12 +87,12 @@ std::vector<double> triangle_stretch(const Chart& chart, double scale) {
   std::vector<double> stretch(chart.triangles.size());
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
     const Mat2 edges = scale * uv_edges(chart, t);
-    const Mat2 jacobian = edges * chart.rest[t].inverse_edges;
+    const Mat2 jacobian = edges * chart.surface[t].inverse_edges;
     // s1 + s2 and s1 - s2 from the parts of J that turn and that mirror.
     const double sum = std::hypot(jacobian(0, 0) + jacobian(1, 1), jacobian(1, 0) - jacobian(0, 1));
     const double difference = std::hypot(jacobian(0, 0) - jacobian(1, 1), jacobian(1, 0) + jacobian(0, 1));
     const double s1 = 0.5 * (sum + difference);
-    const double s2 = std::abs(edges.determinant() * chart.rest[t].inverse_edges.determinant()) / s1;
+    const double s2 = std::abs(edges.determinant() * chart.surface[t].inverse_edges.determinant()) / s1;
     stretch[t] = s2 > 0 ? std::max(s1, 1 / s2) : std::numeric_limits<double>::infinity();
   }
   return stretch;

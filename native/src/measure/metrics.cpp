@@ -14,17 +14,11 @@ namespace {
 constexpr double kSmallChart = 0.03;  // N3 counts charts below this share of the surface
 constexpr double kPercentile = 0.99;
 
-double surface_area(const Chart& chart) {
-  double area = 0;
-  for (const RestTriangle& rest : chart.rest) area += rest.area;
-  return area;
-}
-
 void measure_chart_sizes(const std::vector<Chart>& charts, Measures& measures) {
   std::vector<double> areas;
   double total = 0;
   for (const Chart& chart : charts) {
-    areas.push_back(surface_area(chart));
+    areas.push_back(chart.surface.area());
     total += areas.back();
   }
   measures.chart_count = static_cast<int>(charts.size());
@@ -39,8 +33,8 @@ void measure_stretch(const std::vector<Chart>& charts, double scale, Measures& m
   for (const Chart& chart : charts) {
     const std::vector<double> stretch = triangle_stretch(chart, scale);
     for (std::size_t t = 0; t < stretch.size(); ++t) {
-      stretch_and_area.push_back({stretch[t], chart.rest[t].area});
-      total += chart.rest[t].area;
+      stretch_and_area.push_back({stretch[t], chart.surface[t].area});
+      total += chart.surface[t].area;
     }
   }
   std::sort(stretch_and_area.begin(), stretch_and_area.end());

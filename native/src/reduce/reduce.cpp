@@ -1,245 +1,251 @@
-// The engine's loop: one Newton step on E_d + barrier with the multiplier of log PE, again and again.
+// The engine's loop: one Newton step on objective + barrier with the multiplier of log PE, again and again.
 #include "reduce/reduce.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "reduce/system.h"
+#include "reduce/contact_set.h"
+#include "reduce/model.h"
+#include "reduce/schedule.h"
 
 namespace atlas_refine {
 namespace {
 
-constexpr double kLeastClimb = 0.01;   // log PE gains at most this much in one iteration near the target,
-constexpr double kMostClimb = 0.03;    // and this much far below it
-constexpr double kTargetSlack = 2e-5;  // aim so much above the bound, relative, that rounding cannot lose it
-constexpr double kNearTarget = 1e-3;   // log PE: from here on the barrier softens
-constexpr double kNegligible = 1e-8;   // a change of E_d that nobody can measure
-constexpr double kLeastPrice = 1e-3;   // the barrier is never softer than for this price
-// Where charts start above the target and relax:
-constexpr double kMostFall = 0.01;       // log PE falls so much in one iteration, unless holding it there is dear,
-constexpr double kFastFall = 0.03;       // and so much while E_d - 1 is still far from what is enough:
-constexpr double kFar = 2;               // that many times as much
-constexpr double kMargin = 3;            // they keep off the target by so many times what the PE of a step was wrong by,
-constexpr double kMostMargin = 0.006;    // at most by this
-constexpr double kPressure = 1;          // the barrier is as firm as for this price per unit of E_d - 1,
-constexpr double kDearest = 8;           // or for a price up to so much more,
-constexpr double kMostRise = 4;          // E_d - 1 beyond so much of the start's: the charts are wedged
-constexpr double kFirmness = 0.2;        // stiffness of the barrier per price and range while PE climbs,
-constexpr double kSoftFirmness = 0.005;  // and at the end, when charts may come as near as the gap allows
-constexpr double kSoftening = 0.5;       // from one to the other, a step per iteration on the target
-constexpr double kOpenFirmness = 2;      // without a box: far from the optimum, a soft barrier grinds
-constexpr double kLeastDamping = 1e-6;
-constexpr double kMostDamping = 1e8;
-constexpr double kArmijo = 1e-4;
+constexpr double kNegligible = 1e-8;  // a change of E_d that nobody can measure
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kStallIterations = 12;
 
-double dot(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
-  return sum;
+/// Where the iteration is.
+struct Iterate {
+  ReduceState state;
+  double energy = 0;
+  double distortion = 0;  ///< of the surface; kept up only where it is limited
+  double pe = 0;
+  double price = 0;
+  double fraction = 1;  ///< of the last step that was taken
+};
+
+struct Step {
+  std::vector<Vec2> direction;
+  double slope = 0;  ///< of the merit along it
+  double price = 0;
+  double predicted_gain = 0;  ///< of log PE
+};
+
+/// Iterations in a row of one kind.
+struct Counters {
+  int calm = 0, idle = 0, expensive = 0, distorted = 0;
+};
+
+/// The problem with what its tests need.
+struct Task {
+  const ReduceProblem& problem;
+  const ReduceModel& model;
+
+  bool bounded() const { return model.has_box; }
+  bool holds_bound(const Iterate& at) const { return !bounded() || at.pe >= problem.pe_target; }
+  bool within_limit(const Iterate& at) const { return problem.max_distortion == 0 || at.distortion <= problem.max_distortion; }
+  /// log of target / PE, positive while the bound does not hold.
+  double deficit(const Iterate& at, double margin) const {
+    return bounded() ? std::log(problem.pe_target * (1 + kTargetSlack + margin) / at.pe) : 0;
+  }
+  ScheduleView view(const Iterate& at, double margin) const { return {bounded(), deficit(at, margin), at.energy, model.range}; }
+};
+
+void measure(const Task& task, Iterate& at) {
+  if (task.bounded()) at.pe = tight_pe(task.model, at.state);
+  if (task.problem.max_distortion > 0) at.distortion = surface_distortion(task.model, at.state.x);
 }
 
-class Reduction {
- public:
-  Reduction(const ReduceProblem& problem, const ReduceMonitor& monitor)
-      : problem_(problem), monitor_(monitor), system_(problem), state_(system_.start()) {
-    energy_ = system_.distortion(state_.x);
-    first_energy_ = energy_;
-    best_ = state_;
-    firmness_ = bounded() ? kFirmness : kOpenFirmness;
-    update_pe();
-    relaxing_ = bounded() && pe_ > problem_.pe_target;
-    margin_ = relaxing_ ? kMostMargin : 0;
-    if (relaxing_ && deficit() > -kNearTarget) firmness_ = kSoftFirmness;  // there already
-    stiffness_ = firmness_ * least_price() * system_.range();
-    if (relaxing_) stiffness_ *= system_.least_slack(state_);
+Iterate first_iterate(const Task& task) {
+  Iterate at{.state = task.model.start};
+  at.energy = dirichlet_energy(task.model.objective, task.model.triangles, at.state.x);
+  measure(task, at);
+  return at;
+}
+
+/// Gradient of objective + stiffness * barrier and its projected Hessian. The pattern is analysed anew only where a contact asks.
+void assemble(const ReduceModel& model, const ReduceState& state, double stiffness, TriangleSlots& slots, BlockSystem& system) {
+  const ContactSet contacts = find_contacts(model, state);
+  if (!covers(system.matrix, model, contacts)) {
+    auto pairs = triangle_sides(model.triangles);
+    const auto coupled = coupled_nodes(model, state, contacts);
+    pairs.insert(pairs.end(), coupled.begin(), coupled.end());
+    system.matrix.analyse(model.node_count(), pairs, model.has_box ? model.box_node() : -1);
+    slots = triangle_slots(system.matrix, model.triangles);
   }
+  system.set_zero();
+  add_dirichlet(model.objective, model.triangles, slots, state.x, model.threads, system);
+  add_contacts(model, state, contacts, stiffness, system);
+  if (model.has_box) add_walls(model, state, stiffness, system);
+}
 
-  ReduceResult run() {
-    ReduceStatus status = ReduceStatus::OutOfTime;
-    keep_if_best();
-    if (!std::isfinite(energy_) || !std::isfinite(system_.barrier(state_, system_.contacts(state_, {}))))
-      return result(ReduceStatus::Stalled);
-    for (iteration_ = 0; iteration_ < problem_.max_iterations; ++iteration_) {
-      if (monitor_) monitor_({iteration_, pe_, energy_, price_, fraction_});
-      if (finished(status)) break;
-      const double energy_before = energy_, pe_before = pe_;
-      if (!compute_step()) {
-        status = ReduceStatus::Stalled;
-        break;
-      }
-      advance();
-      keep_if_best();
-      count_progress(energy_before, pe_before);
-    }
-    return result(status);
+/// The price at which log PE gains what it should; 0 where the bound does not bind.
+double price_of_gain(const Task& task, const Iterate& at, const Schedule& schedule, double own_gain, double gain_per_price) {
+  const double deficit = task.deficit(at, schedule.margin);
+  // Too distorted: hold the PE and relax before climbing on.
+  const double climb = task.within_limit(at) ? largest_climb(deficit) : 0;
+  double price = std::max(0.0, (std::min(deficit, climb) - own_gain) / gain_per_price);
+  if (!schedule.relaxing) return price;
+  const double fall = largest_fall(at.energy, task.problem.enough_distortion);
+  return std::max(price, std::min(dearest_price(schedule, at.energy), (-fall - own_gain) / gain_per_price));
+}
+
+/// Solves for the step and its price; nothing where no damping makes the matrix positive definite.
+std::optional<Step> compute_step(const Task& task, const Iterate& at, Schedule& schedule, TriangleSlots& slots,
+                                 BlockSystem& system) {
+  assemble(task.model, at.state, schedule.stiffness, slots, system);
+  const auto damping = factor_damped(system, task.model.masses, {schedule.damping, 10, kMostDamping});
+  if (!damping) return std::nullopt;
+  schedule.damping = *damping;
+  Step step{.direction = newton_direction(system)};
+  if (task.bounded()) {
+    const std::vector<Vec2> gradient = pe_gradient(task.model, at.state);
+    std::vector<Vec2> climb = gradient;
+    system.matrix.solve(climb);
+    const double own_gain = dot(gradient, step.direction), gain_per_price = dot(gradient, climb);
+    step.price = price_of_gain(task, at, schedule, own_gain, gain_per_price);
+    step.predicted_gain = own_gain + step.price * gain_per_price;
+    for (std::size_t i = 0; i < climb.size(); ++i) step.direction[i] += step.price * climb[i];
+    step.slope = -step.price * dot(gradient, step.direction);
   }
+  step.slope += dot(system.gradient, step.direction);
+  return step;
+}
 
- private:
-  bool bounded() const { return system_.has_box(); }
-  bool holds_bound() const { return !bounded() || pe_ >= problem_.pe_target; }
-  /// log of target / PE, positive while the bound does not hold.
-  double deficit() const { return bounded() ? std::log(problem_.pe_target * (1 + kTargetSlack + margin_) / pe_) : 0; }
-
-  void update_pe() {
-    if (bounded()) pe_ = system_.tight_pe(state_);
+/// Backtracks along the step from its largest part free of flips and collisions.
+void advance(const Task& task, const Step& step, const Schedule& schedule, Iterate& at) {
+  const ReduceModel& model = task.model;
+  at.price = step.price;
+  StepBounds bounds = free_step(model, at.state, step.direction);
+  const double limit = bounds.least();
+  std::vector<Vec2> swept(step.direction.begin(), step.direction.begin() + model.vertex_count());
+  for (Vec2& s : swept) s *= limit;
+  const ContactSet contacts = find_contacts(model, at.state, swept);
+  const auto merit = [&](const ReduceState& state, double energy, double barrier) {
+    return energy + schedule.stiffness * barrier - (task.bounded() ? step.price * std::log(box_pe(model, state)) : 0);
+  };
+  const double before = merit(at.state, at.energy, barrier(model, at.state, contacts));
+  if (limit <= 0) {
+    at.fraction = 0;
+    return;
   }
+  for (double& part : bounds.of_piece) part /= limit;
+  Iterate trial;
+  at.fraction = line_search(limit, before, step.slope, [&](double fraction) {
+    trial.state = moved(model, at.state, step.direction, bounds, fraction);
+    if (task.bounded() && !(trial.state.box.minCoeff() > 0)) return kInfinite;
+    const double pressure = barrier(model, trial.state, contacts);
+    if (!std::isfinite(pressure)) return kInfinite;
+    trial.energy = dirichlet_energy(model.objective, model.triangles, trial.state.x);
+    return merit(trial.state, trial.energy, pressure);
+  });
+  if (at.fraction == 0) return;
+  at.state = std::move(trial.state);
+  at.energy = trial.energy;
+  measure(task, at);
+}
 
-  bool finished(ReduceStatus& status) const {
-    if (holds_bound() && calm_ >= 2)
-      status = ReduceStatus::Converged;
-    else if (holds_bound() && problem_.enough_distortion > 0 && energy_ <= problem_.enough_distortion)
-      status = ReduceStatus::Converged;
-    else if (distorted_ >= 4)
-      status = ReduceStatus::TooDistorted;
-    else if (!holds_bound() && problem_.max_price > 0 && expensive_ >= 3)
-      status = ReduceStatus::TooExpensive;
-    else if (idle_ >= kStallIterations || (relaxing_ && energy_ - 1 > kMostRise * (first_energy_ - 1)))
-      status = ReduceStatus::Stalled;
-    else
-      return false;
-    return true;
-  }
-
-  bool within_distortion() const { return problem_.max_distortion == 0 || energy_ <= problem_.max_distortion; }
-
-  /// Solves for the step and its price; raises the damping until the matrix is positive definite.
-  bool compute_step() {
-    system_.assemble(state_, system_.contacts(state_, {}), stiffness_);
-    system_.damp(damping_);
-    for (double extra = damping_; !system_.matrix.factor(); extra *= 10) {
-      if (damping_ + extra > kMostDamping) return false;
-      system_.damp(extra);
-      damping_ += extra;
-    }
-    step_ = system_.energy_gradient;
-    system_.matrix.solve(step_);
-    for (Vec2& s : step_) s = -s;
-    price_ = 0;
-    if (!bounded()) return true;
-    std::vector<Vec2> climb = system_.pe_gradient;
-    system_.matrix.solve(climb);
-    // Too distorted: hold the PE and relax before climbing on.
-    const double climb_limit = within_distortion() ? std::clamp(0.2 * deficit(), kLeastClimb, kMostClimb) : 0;
-    const double own_gain = dot(system_.pe_gradient, step_), gain_per_price = dot(system_.pe_gradient, climb);
-    price_ = std::max(0.0, (std::min(deficit(), climb_limit) - own_gain) / gain_per_price);
-    if (relaxing_) price_ = std::max(price_, std::min(kDearest * least_price(), (-most_fall() - own_gain) / gain_per_price));
-    predicted_gain_ = own_gain + price_ * gain_per_price;
-    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] += price_ * climb[i];
-    return true;
-  }
-
-  double merit(const ReduceState& state, double energy, double barrier) const {
-    return energy + stiffness_ * barrier - (bounded() ? price_ * std::log(system_.box_pe(state)) : 0);
-  }
-
-  /// Backtracks along the step from its largest fraction free of flips and collisions.
-  void advance() {
-    const double limit = system_.free_step(state_, step_);
-    std::vector<Vec2> swept(step_.begin(), step_.begin() + system_.vertex_count());
-    for (Vec2& s : swept) s *= limit;
-    const auto contacts = system_.contacts(state_, swept);
-    const double merit_before = merit(state_, energy_, system_.barrier(state_, contacts));
-    double slope = dot(system_.energy_gradient, step_);
-    if (bounded()) slope -= price_ * dot(system_.pe_gradient, step_);
-    fraction_ = 0;
-    for (double fraction = limit; fraction > 1e-9; fraction *= 0.5) {
-      ReduceState trial = system_.moved(state_, step_, fraction);
-      if (bounded() && !(trial.box.minCoeff() > 0)) continue;
-      const double barrier = system_.barrier(trial, contacts);
-      if (!std::isfinite(barrier)) continue;
-      const double energy = system_.distortion(trial.x);
-      if (!(merit(trial, energy, barrier) <= merit_before + kArmijo * fraction * slope)) continue;
-      state_ = std::move(trial);
-      energy_ = energy;
-      fraction_ = fraction;
-      break;
-    }
-    const double pe_before = pe_;
-    update_pe();
-    if (relaxing_) {
-      const double error = std::abs(std::log(pe_ / pe_before) - fraction_ * predicted_gain_);
-      margin_ = std::min(kMostMargin, std::max(0.5 * margin_, kMargin * error));
-    }
-    adapt();
-  }
-
-  /// Damping follows the steps that succeed, the barrier's stiffness follows the price.
-  void adapt() {
-    if (fraction_ >= 0.5)
-      damping_ = std::max(kLeastDamping, 0.5 * damping_);
-    else if (fraction_ < 0.1)
-      damping_ = std::min(kMostDamping, 4 * damping_);
-    if (bounded() && deficit() < kNearTarget && (!relaxing_ || deficit() > -kNearTarget))
-      firmness_ = std::max(kSoftFirmness, kSoftening * firmness_);
-    // A relaxing barrier that followed a price of its own making would freeze.
-    const double price = relaxing_ ? std::min(price_, kDearest * least_price()) : price_;
-    const double wanted = firmness_ * std::max(price, least_price()) * system_.range();
-    stiffness_ = std::clamp(wanted, 0.5 * stiffness_, 2 * stiffness_);
-  }
-
-  double most_fall() const { return energy_ - 1 > kFar * (problem_.enough_distortion - 1) ? kFastFall : kMostFall; }
-
-  /// Where charts start above the bound and relax, they press on each other by the energy that they still have to lose.
-  double least_price() const { return relaxing_ ? std::max(kLeastPrice, kPressure * (energy_ - 1)) : kLeastPrice; }
-
-  /// The barrier has reached its final softness, or nothing presses on it.
-  bool settled() const { return !bounded() || price_ == 0 || firmness_ == kSoftFirmness; }
-
-  void count_progress(double energy_before, double pe_before) {
-    const bool on_target = !bounded() || (std::abs(deficit()) < 1e-4 || (holds_bound() && price_ == 0));
-    const bool quiet =
-        std::abs(energy_ - energy_before) < problem_.least_change * (energy_ - 1) + problem_.negligible && fraction_ > 0.1;
-    calm_ = on_target && quiet && settled() ? calm_ + 1 : 0;
-    expensive_ = price_ > problem_.max_price ? expensive_ + 1 : 0;
-    distorted_ = !within_distortion() && quiet ? distorted_ + 1 : 0;
-    const bool moved =
-        std::abs(energy_ - energy_before) > 1e-5 * (energy_ - 1) + 0.1 * kNegligible || pe_ - pe_before > 1e-5 * pe_;
-    idle_ = moved ? 0 : idle_ + 1;
-  }
-
-  void keep_if_best() {
-    if (!within_distortion()) return;
-    const bool holds = holds_bound();
-    if (holds && !best_holds_) best_energy_ = std::numeric_limits<double>::infinity();
-    const bool better = holds ? energy_ < best_energy_ : !best_holds_ && pe_ > best_pe_;
-    if (!better) return;
-    best_ = state_;
-    best_holds_ = holds;
-    best_energy_ = energy_;
-    best_pe_ = pe_;
-    best_price_ = price_;
-  }
-
-  ReduceResult result(ReduceStatus status) const {
-    ReduceResult out;
-    out.uvs = system_.chart_uvs(best_);
-    out.status = status;
-    out.reached = best_holds_;
-    out.pe = best_pe_;
-    out.energy = best_energy_;
-    out.price = best_price_;
-    out.iterations = iteration_;
-    return out;
-  }
-
-  const ReduceProblem& problem_;
-  const ReduceMonitor& monitor_;
-  ReduceSystem system_;
-  ReduceState state_, best_;
-  std::vector<Vec2> step_;
-  double first_energy_ = 0, margin_ = 0, predicted_gain_ = 0, energy_ = 0, pe_ = 0, price_ = 0, fraction_ = 1;
-  double firmness_ = 0, stiffness_ = 0, damping_ = 1e-3;
-  double best_energy_ = std::numeric_limits<double>::infinity(), best_pe_ = -1, best_price_ = 0;
-  bool best_holds_ = false, relaxing_ = false;
-  int iteration_ = 0, calm_ = 0, idle_ = 0, expensive_ = 0, distorted_ = 0;
+/// What one iteration changed.
+struct Change {
+  double energy, pe;
 };
+
+Counters counted(const Task& task, const Change& change, const Iterate& at, const Schedule& schedule, Counters counters) {
+  const ReduceProblem& problem = task.problem;
+  const double deficit = task.deficit(at, schedule.margin);
+  const bool on_target = !task.bounded() || std::abs(deficit) < 1e-4 || (task.holds_bound(at) && at.price == 0);
+  const double moved = std::abs(change.energy);
+  const bool quiet = moved < problem.least_change * (at.energy - 1) + problem.negligible && at.fraction > 0.1;
+  const bool calm = on_target && quiet && settled(schedule, task.view(at, schedule.margin), at.price);
+  counters.calm = calm ? counters.calm + 1 : 0;
+  counters.expensive = at.price > problem.max_price ? counters.expensive + 1 : 0;
+  counters.distorted = !task.within_limit(at) && quiet ? counters.distorted + 1 : 0;
+  const bool progress = moved > 1e-5 * (at.energy - 1) + 0.1 * kNegligible || change.pe > 1e-5 * at.pe;
+  counters.idle = progress ? 0 : counters.idle + 1;
+  return counters;
+}
+
+std::optional<ReduceStatus> ended(const Task& task, const Iterate& at, const Schedule& schedule, const Counters& counters,
+                                  double first_energy) {
+  const ReduceProblem& problem = task.problem;
+  const bool holds = task.holds_bound(at);
+  if (holds && counters.calm >= 2) return ReduceStatus::Converged;
+  if (holds && problem.enough_distortion > 0 && at.energy <= problem.enough_distortion) return ReduceStatus::Enough;
+  if (counters.distorted >= 4) return ReduceStatus::TooDistorted;
+  if (!holds && problem.max_price > 0 && counters.expensive >= 3) return ReduceStatus::TooExpensive;
+  if (counters.idle >= kStallIterations || wedged(schedule, at.energy, first_energy)) return ReduceStatus::Stalled;
+  return std::nullopt;
+}
+
+/// True where `a` is a better result than `b`.
+bool better(const Task& task, const Iterate& a, const Iterate& b) {
+  const bool a_within = task.within_limit(a), b_within = task.within_limit(b);
+  if (a_within != b_within) return a_within;
+  if (!a_within) return a.distortion < b.distortion;
+  const bool a_holds = task.holds_bound(a), b_holds = task.holds_bound(b);
+  if (a_holds != b_holds) return a_holds;
+  return a_holds ? a.energy < b.energy : a.pe > b.pe;
+}
+
+ReduceResult result_of(const Task& task, const Iterate& best, ReduceStatus status, double stiffness, int iterations) {
+  const ReduceModel& model = task.model;
+  ReduceResult out{.uvs = by_piece(model, best.state.x, model.objective.unit), .status = status};
+  out.reached = task.holds_bound(best);
+  out.within_limit = task.within_limit(best);
+  out.pe = best.pe;
+  out.energy = best.energy;
+  out.distortion = surface_distortion(model, best.state.x);
+  out.price = best.price;
+  out.iterations = iterations;
+  const std::vector<double> energies = triangle_energies(model.objective, model.triangles, best.state.x);
+  auto next = energies.begin();
+  for (const Chart& chart : task.problem.charts) {
+    out.triangle_energy.emplace_back(next, next + static_cast<std::ptrdiff_t>(chart.triangles.size()));
+    next += static_cast<std::ptrdiff_t>(chart.triangles.size());
+  }
+  out.contact_forces = by_piece(model, contact_forces(model, best.state, find_contacts(model, best.state), stiffness), 1);
+  return out;
+}
 
 }  // namespace
 
 ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor& monitor) {
-  return Reduction(problem, monitor).run();
+  const ReduceModel model = make_model(problem);
+  const Task task{problem, model};
+  Iterate at = first_iterate(task);
+  Iterate best = at;
+  const double first_energy = at.energy;
+  const bool relaxing = task.bounded() && at.pe > problem.pe_target;
+  Schedule schedule =
+      first_schedule(relaxing, task.view(at, relaxing ? kMostMargin : 0), relaxing ? least_slack(model, at.state) : 1);
+  if (!std::isfinite(at.energy) || !std::isfinite(barrier(model, at.state, find_contacts(model, at.state))))
+    return result_of(task, best, ReduceStatus::Stalled, 0, 0);
+  Counters counters;
+  TriangleSlots slots;
+  BlockSystem system;
+  ReduceStatus status = ReduceStatus::OutOfTime;
+  int iteration = 0;
+  for (; iteration < problem.max_iterations; ++iteration) {
+    if (monitor) monitor({iteration, at.pe, at.energy, at.price, at.fraction});
+    if (const auto end = ended(task, at, schedule, counters, first_energy)) {
+      status = *end;
+      break;
+    }
+    const auto step = compute_step(task, at, schedule, slots, system);
+    if (!step) {
+      status = ReduceStatus::Stalled;
+      break;
+    }
+    const double energy_before = at.energy, pe_before = at.pe;
+    advance(task, *step, schedule, at);
+    if (relaxing) adapt_margin(schedule, std::abs(std::log(at.pe / pe_before) - at.fraction * step->predicted_gain));
+    adapt(schedule, task.view(at, schedule.margin), at.price, at.fraction);
+    if (better(task, at, best)) best = at;
+    counters = counted(task, {at.energy - energy_before, at.pe - pe_before}, at, schedule, counters);
+  }
+  return result_of(task, best, status, schedule.stiffness, iteration);
 }
 
 }  // namespace atlas_refine

@@ -1,12 +1,13 @@
-// The engine: least distortion of placed charts under a packing efficiency target, gaps kept (section 3.3, squeeze.md).
+// The engine: least distortion of placed pieces under a packing efficiency target, gaps kept (section 3.3, eq. 12-14).
 #pragma once
 
 #include <functional>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "atlas_refine/options.h"
 #include "geometry/chart.h"
+#include "solve/objective.h"
 
 namespace atlas_refine {
 
@@ -14,21 +15,23 @@ namespace atlas_refine {
 inline constexpr double kStartGap = 1.006;
 
 struct ReduceProblem {
-  const std::vector<Chart>& charts;  ///< placed, free of flips and crossings, kStartGap times the gap apart; the start
-  Gap gap;                           ///< smallest distance between charts; within a chart the same, or the start's own if less
-  double box_aspect = 0;             ///< width / height, 0 = free
-  double pe_target = 0;              ///< in (0, 1), below or above the present PE; 0 = no box: least distortion in open space
-  double enough_distortion = 0;      ///< stop as soon as the bound holds and E_d is at most this; 0 = go to the optimum
-  double least_change = 2e-4;        ///< E_d is at its optimum where E_d - 1 changes by less, relative, twice in a row
-  double negligible = 1e-8;          ///< or by less than this
-  double max_distortion = 0;         ///< give up the climb once the cheapest E_d at the present PE exceeds this; 0 = no limit
-  double max_price = 0;              ///< give up the climb where lambda exceeds this below the target; 0 = no limit
+  const std::vector<Chart>& charts;         ///< placed, free of flips and crossings, kStartGap times the gap apart; the start
+  std::optional<Objective> objective = {};  ///< of `charts`; nothing: the surface
+  Gap gap = {};                  ///< smallest distance between charts; within a chart the same, or the start's own if less
+  double box_aspect = 0;         ///< width / height, 0 = free
+  double pe_target = 0;          ///< in (0, 1), below or above the present PE; 0 = no box: least distortion in open space
+  double enough_distortion = 0;  ///< stop as soon as the bound holds and the objective is at most this; 0 = go to the optimum
+  double least_change = 2e-4;    ///< at the optimum where the objective - 1 changes by less, relative, twice in a row
+  double negligible = 1e-8;      ///< or by less than this
+  double max_distortion = 0;     ///< of the surface's E_d: give up the climb once it is exceeded at its least; 0 = no limit
+  double max_price = 0;          ///< give up the climb where lambda exceeds this below the target; 0 = no limit
   int max_iterations = 600;
   int threads = 1;
 };
 
 enum class ReduceStatus {
-  Converged,     ///< the target holds and E_d is at its optimum there
+  Converged,     ///< the target holds and the objective is at its optimum there
+  Enough,        ///< the target holds and the objective is at most enough_distortion
   Stalled,       ///< no further progress; `reached` tells whether the target holds
   TooDistorted,  ///< max_distortion was met before the target
   TooExpensive,  ///< max_price was met before the target
@@ -45,18 +48,25 @@ struct ReduceProgress {
 /// Called before every iteration; may throw to cancel.
 using ReduceMonitor = std::function<void(const ReduceProgress&)>;
 
+/// The best state that was found: within max_distortion if any was, then at the target if any was, then of the least objective
+/// there, or the highest PE.
 struct ReduceResult {
   std::vector<std::vector<Vec2>> uvs;  ///< one array per chart, in the start's units
   ReduceStatus status = ReduceStatus::Converged;
-  bool reached = false;  ///< PE of the charts' own bounding box (of the asked aspect) is at least the target
+  bool reached = false;      ///< PE of the charts' own bounding box (of the asked aspect) is at least the target
+  bool within_limit = true;  ///< E_d is at most max_distortion
   double pe = 0;
-  double energy = 0;  ///< E_d at the scale the charts have
-  double price = 0;   ///< lambda
+  double energy = 0;      ///< the objective at the scale the charts have
+  double distortion = 0;  ///< E_d on the surface, under the one global scale that minimises it
+  double price = 0;       ///< lambda: marginal objective for one unit of log PE
   int iterations = 0;
+  /// Where the objective is lost, and what holds the charts apart: what a cut or a heat map is chosen by.
+  std::vector<std::vector<double>> triangle_energy;  ///< per chart and triangle, unweighted, 1 = the wanted shape
+  std::vector<std::vector<Vec2>> contact_forces;     ///< per chart and vertex; objective per length of the surface's square root
 };
 
-/// Minimises E_d + barrier subject to log PE >= log target by projected Newton with one multiplier. From above the target the
-/// iterates keep a margin to it, and may still dip below by what PE of one step was wrong by; the result never does.
+/// Minimises objective + barrier subject to log PE >= log target by projected Newton with one multiplier. From above the target
+/// the iterates keep a margin to it, and may still dip below by what PE of one step was wrong by; the result never does.
 /// Differs from Algorithm 2: the box sides are unknowns and PE is a constraint with a price instead of a growing scaffold box and
 /// the barrier of eq. (13); the gap is exact, the bound cannot be overstepped, and the start may lie below the bound.
 ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor& monitor = {});

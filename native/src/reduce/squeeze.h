@@ -1,6 +1,7 @@
 // The squeeze: charts bend inside a shrinking box until the bound holds; several starts, the best result wins.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "reduce/reduce.h"
@@ -12,21 +13,26 @@ struct SqueezeOptions {
   double pe_bound = 0.8;
   double box_aspect = 0;
   std::vector<Gap> gaps;      ///< to be tried in this order: the asked one, then smaller ones where that is allowed
-  double max_distortion = 0;  ///< 0 = no limit
+  double max_distortion = 0;  ///< of the surface's E_d; 0 = no limit
   double max_price = 0;       ///< gives up a gap above this, except the last; 0 = no limit
   int threads = 1;
 };
 
 struct Squeezed {
-  std::vector<Chart> charts;
   Gap gap;               ///< that was kept
-  ReduceResult outcome;  ///< its `uvs` are those of `charts`
+  ReduceResult outcome;  ///< the best result
   int iterations = 0;    ///< over all starts and gaps
+  std::string gap_note;  ///< why the gaps before it were given up, in words; empty for the first
 };
+
+/// The gaps that an automatic one may take: the default and smaller ones, down to a fiftieth. Those that the charts' borders
+/// alone leave no room for at the bound are left out, but for the last.
+std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_bound, double box_aspect);
 
 /// Reduces from every start (each free of flips, crossings and nearer charts than the first gap) and keeps the result of least
 /// distortion that holds the bound; where none does, goes on from the best with the next gap, and in the end returns the state of
-/// the highest PE. Starts run in parallel; the choice is by energy, ties by index.
-Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const SqueezeOptions& options, Monitor& monitor);
+/// the highest PE. Starts run in parallel; the choice is by the objective, ties by index.
+Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const Objective& objective, const SqueezeOptions& options,
+                 Monitor& monitor);
 
 }  // namespace atlas_refine

@@ -36,7 +36,7 @@ std::vector<int> outline_of(const Chart& mesh, const std::vector<int>& triangles
 
 class FaceBuilder {
  public:
-  FaceBuilder(const Atlas& atlas, const ChartSet& set, const CutCharts& cut) : atlas_(atlas), set_(set), cut_(cut) {
+  FaceBuilder(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut) : atlas_(atlas), set_(set), cut_(cut) {
     out_.positions = atlas.positions;
     out_.mesh.face_offsets = {0};
     number_points();
@@ -67,7 +67,7 @@ class FaceBuilder {
         for (int t : part.triangles) add_face(f, part.piece, {mesh.triangles[t].begin(), mesh.triangles[t].end()}, turned);
       }
     }
-    for (const CutCharts::Seam& seam : cut_.seams) {
+    for (const Seam& seam : cut_.seams) {
       const auto vertex = [&](int end) { return end < 0 ? vertex_of_point(~end) : vertex_of_chart_[{seam.chart, end}]; };
       out_.mesh.new_seams.push_back({vertex(seam.ends[0]), vertex(seam.ends[1])});
     }
@@ -87,7 +87,7 @@ class FaceBuilder {
   void number_points() {
     index_.assign(cut_.points.size(), -1);
     int count = 0;
-    for (const CutPiece& piece : cut_.pieces) {
+    for (const Piece& piece : cut_.pieces) {
       for (int point : piece.points) {
         if (point >= 0 && index_[point] < 0) index_[point] = count++;
       }
@@ -101,7 +101,7 @@ class FaceBuilder {
   /// New points get their corners and positions from the first face that has them.
   void locate_points(int face) {
     for (const FacePart& part : parts_[face]) {
-      const CutPiece& piece = cut_.pieces[part.piece];
+      const Piece& piece = cut_.pieces[part.piece];
       for (int t : part.triangles) {
         for (int v : piece.mesh.triangles[t]) {
           if (piece.points[v] >= 0 && cut_.points[piece.points[v]].chart == piece.chart) locate_point(face, piece.points[v]);
@@ -149,7 +149,7 @@ class FaceBuilder {
 
   void add_face(int face, int piece, std::vector<int> outline, bool turned) {
     if (turned) std::reverse(outline.begin(), outline.end());
-    const CutPiece& p = cut_.pieces[piece];
+    const Piece& p = cut_.pieces[piece];
     // Start where the face started.
     std::size_t start = 0;
     int lowest = atlas_.corner_count();
@@ -175,7 +175,7 @@ class FaceBuilder {
 
   const Atlas& atlas_;
   const ChartSet& set_;
-  const CutCharts& cut_;
+  const CutAtlas& cut_;
   CutFaces out_;
   std::vector<std::vector<FacePart>> parts_;
   std::vector<int> index_;  // of each point among the new vertices
@@ -185,6 +185,6 @@ class FaceBuilder {
 
 }  // namespace
 
-CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutCharts& cut) { return FaceBuilder(atlas, set, cut).run(); }
+CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut) { return FaceBuilder(atlas, set, cut).run(); }
 
 }  // namespace atlas_refine

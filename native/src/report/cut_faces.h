@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "atlas_refine/result.h"
-#include "cut/cut_charts.h"
+#include "cut/cut_atlas.h"
 #include "input/split_charts.h"
 
 namespace atlas_refine {
@@ -18,6 +18,6 @@ struct CutFaces {
 
 /// The part of a face that lies in one piece becomes one face: a polygon with the face's winding where all its vertices lie on
 /// its outline, else its triangles. A face that nothing crosses keeps its corners in their order.
-CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutCharts& cut);
+CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut);
 
 }  // namespace atlas_refine

@@ -23,11 +23,27 @@ double bounding_box_diagonal(const Atlas& atlas) {
 Measures measure(const Atlas& atlas, double box_aspect) {
   if (!(box_aspect >= 0) || box_aspect > 1e6)
     throw RefineError(ErrorCode::BadOption, "measure", "box aspect must be 0 (free) or positive");
-  return measure_split(atlas, split_charts(atlas), box_aspect);
+  return read_atlas(atlas, box_aspect).measures;
+}
+
+InputAtlas read_atlas(const Atlas& atlas, double box_aspect) {
+  InputAtlas input{atlas, split_charts(atlas), {}};
+  stretch_to_texture(input.set.charts, box_aspect);
+  input.measures = measure_split(atlas, input.set, box_aspect);
+  return input;
+}
+
+void stretch_to_texture(std::vector<Chart>& charts, double box_aspect) {
+  if (box_aspect == 0 || box_aspect == 1) return;
+  for (Chart& chart : charts) {
+    for (Vec2& uv : chart.uvs) uv.x() *= box_aspect;
+  }
 }
 
 Measures measure_split(const Atlas& atlas, const ChartSet& set, double box_aspect) {
   Measures measures = measure_charts(charts_as_placed(set), box_aspect);
+  if (box_aspect > 0) measures.box_width /= box_aspect;
+  measures.unit_square_share = measures.pe * measures.box_width * measures.box_height;
   measures.seam_edges = set.seam_edges;
   const double diagonal = bounding_box_diagonal(atlas);
   measures.boundary_length = diagonal > 0 ? set.seam_length / diagonal : 0;

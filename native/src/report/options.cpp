@@ -1,4 +1,4 @@
-// Ranges of the options, and the ladder of automatic gaps.
+// Ranges of the options.
 #include "report/options.h"
 
 #include <cmath>
@@ -7,12 +7,6 @@
 
 namespace atlas_refine {
 namespace {
-
-// An automatic gap is given up for a smaller one where one more per cent of PE costs more than this per cent of E_d.
-constexpr double kDearestPrice = 3;
-constexpr double kGapStep = 0.6;
-constexpr int kGapSteps = 8;
-constexpr int kLayoutGapSteps = 3;  // before extra corners are tried
 
 void require(bool holds, const char* what) {
   if (!holds) throw RefineError(ErrorCode::BadOption, "options", what);
@@ -39,36 +33,6 @@ void check_options(const Atlas& atlas, const RefineOptions& options) {
   require(rectangles.omega >= 0 && rectangles.omega <= 1, "omega must lie in [0, 1]");
   check_importance(atlas, options.importance);
   require(options.threads >= 0 && options.threads <= 1024, "the number of threads must lie in [0, 1024]");
-}
-
-LayoutOptions layout_options(const RefineOptions& options, int threads) {
-  LayoutOptions layout{.pe_bound = options.pe_bound,
-                       .box_aspect = options.box_aspect,
-                       .gaps = {options.gap.value_or(Gap{})},
-                       .rectangles = options.rectangles,
-                       .seed = options.seed,
-                       .threads = threads};
-  for (int k = 0; !options.gap && k < kLayoutGapSteps; ++k) {
-    Gap smaller = layout.gaps.back();
-    smaller.value *= kGapStep;
-    layout.gaps.push_back(smaller);
-  }
-  return layout;
-}
-
-SqueezeOptions squeeze_options(const RefineOptions& options, int threads) {
-  SqueezeOptions squeeze{.pe_bound = options.pe_bound,
-                         .box_aspect = options.box_aspect,
-                         .gaps = {options.gap.value_or(Gap{})},
-                         .max_distortion = options.max_distortion.value_or(0),
-                         .max_price = kDearestPrice,
-                         .threads = threads};
-  for (int k = 0; !options.gap && k < kGapSteps; ++k) {
-    Gap smaller = squeeze.gaps.back();
-    smaller.value *= kGapStep;
-    squeeze.gaps.push_back(smaller);
-  }
-  return squeeze;
 }
 
 }  // namespace atlas_refine

@@ -28,7 +28,8 @@ __attribute__((target_clones("avx2", "default"))) void subtract_products(const i
 
 }  // namespace
 
-void BlockLdlt::analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node) {
+void BlockLdlt::analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node,
+                        std::vector<int> known_order) {
   // Bucket by the smaller node, then sort and thin out each short row.
   std::vector<int> start(node_count + 1, 0);
   for (const auto& [i, j] : edges) ++start[std::min(i, j) + 1];
@@ -49,7 +50,9 @@ void BlockLdlt::analyse(int node_count, const std::vector<std::pair<int, int>>& 
   row_nodes_.resize(kept);
   diagonal.assign(node_count, Mat2::Zero());
   off_diagonal.assign(kept, Mat2::Zero());
-  order(last_node);
+  order_ = known_order.empty() ? minimum_degree_order(last_node) : std::move(known_order);
+  rank_.resize(node_count);
+  for (int k = 0; k < node_count; ++k) rank_[order_[k]] = k;
   permute_pattern();
   analyse_elimination_tree();
 }
@@ -62,12 +65,19 @@ int BlockLdlt::slot(int i, int j) const {
   return found != last && *found == j ? static_cast<int>(found - row_nodes_.begin()) : -1;
 }
 
+void BlockLdlt::add(int i, int j, const Mat2& block) {
+  if (i == j)
+    diagonal[i] += block;
+  else if (i < j)
+    off_diagonal[slot(i, j)] += block;
+}
+
 void BlockLdlt::set_zero() {
   std::fill(diagonal.begin(), diagonal.end(), Mat2::Zero());
   std::fill(off_diagonal.begin(), off_diagonal.end(), Mat2::Zero());
 }
 
-void BlockLdlt::order(int last_node) {
+std::vector<int> BlockLdlt::minimum_degree_order(int last_node) const {
   const int n = node_count();
   // One triangle and the diagonal, which the ordering expects, without the last node's couplings, as compressed columns.
   std::vector<int> starts(n + 1, 0), rows;
@@ -84,13 +94,12 @@ void BlockLdlt::order(int last_node) {
       n, n, static_cast<Eigen::Index>(rows.size()), starts.data(), rows.data(), ones.data());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
   Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), permutation);
-  order_.assign(permutation.indices().data(), permutation.indices().data() + n);
+  std::vector<int> order(permutation.indices().data(), permutation.indices().data() + n);
   if (last_node >= 0) {
-    order_.erase(std::find(order_.begin(), order_.end(), last_node));
-    order_.push_back(last_node);
+    order.erase(std::find(order.begin(), order.end(), last_node));
+    order.push_back(last_node);
   }
-  rank_.resize(n);
-  for (int k = 0; k < n; ++k) rank_[order_[k]] = k;
+  return order;
 }
 
 void BlockLdlt::permute_pattern() {

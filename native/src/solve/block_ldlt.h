@@ -13,8 +13,13 @@ namespace atlas_refine {
 class BlockLdlt {
  public:
   /// `edges` are pairs of distinct nodes in any order, duplicates allowed. `last_node` (or -1) is eliminated last: a node that is
-  /// coupled to a large part of the others would only disturb the ordering.
-  void analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node = -1);
+  /// coupled to a large part of the others would only disturb the ordering. `known_order`, an elimination_order() of an earlier
+  /// pattern on the same nodes, is taken over where it is given.
+  void analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node = -1,
+               std::vector<int> known_order = {});
+
+  /// The node eliminated as k-th.
+  const std::vector<int>& elimination_order() const { return order_; }
 
   /// Index into `off_diagonal` of the block (min(i, j), max(i, j)), -1 where the pattern has none.
   int slot(int i, int j) const;
@@ -25,6 +30,9 @@ class BlockLdlt {
 
   std::vector<Mat2> diagonal;      ///< one per node
   std::vector<Mat2> off_diagonal;  ///< one per slot: rows of the smaller node, columns of the larger
+
+  /// Adds a block of row i and column j; of the two mirrored blocks of a symmetric matrix only the one with i <= j counts.
+  void add(int i, int j, const Mat2& block);
 
   void set_zero();
 
@@ -40,7 +48,7 @@ class BlockLdlt {
     int slot;
     bool transposed;
   };
-  void order(int last_node);
+  std::vector<int> minimum_degree_order(int last_node) const;
   void permute_pattern();
   void analyse_elimination_tree();
 

@@ -33,9 +33,9 @@ void clamp_twist(const Mat2& j, double n, double d, Mat4& hessian) {
 
 }  // namespace
 
-TriangleDerivatives symmetric_dirichlet_derivatives(const RestTriangle& rest, const Vec2& p0, const Vec2& p1, const Vec2& p2,
+TriangleDerivatives symmetric_dirichlet_derivatives(const Mat2& inverse_edges, const Vec2& p0, const Vec2& p1, const Vec2& p2,
                                                     bool project) {
-  const Mat2 jac = jacobian(rest, p0, p1, p2);
+  const Mat2 jac = jacobian(inverse_edges, p0, p1, p2);
   const Vec4 j(jac(0, 0), jac(1, 0), jac(0, 1), jac(1, 1));
   const Vec4 cofactor(j[3], -j[2], -j[1], j[0]);
   const double n = j.squaredNorm();
@@ -47,8 +47,8 @@ TriangleDerivatives symmetric_dirichlet_derivatives(const RestTriangle& rest, co
   if (project) clamp_twist(jac, n, d, h);
 
   // J = sum_k u_k w_k^T with w_1, w_2 the rows of the inverse rest edges and w_0 = -(w_1 + w_2).
-  const Eigen::RowVector2d w1 = rest.inverse_edges.row(0);
-  const Eigen::RowVector2d w2 = rest.inverse_edges.row(1);
+  const Eigen::RowVector2d w1 = inverse_edges.row(0);
+  const Eigen::RowVector2d w2 = inverse_edges.row(1);
   const auto contract = [&](const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) -> Mat2 {
     return a[0] * (b[0] * h.block<2, 2>(0, 0) + b[1] * h.block<2, 2>(0, 2)) +
            a[1] * (b[0] * h.block<2, 2>(2, 0) + b[1] * h.block<2, 2>(2, 2));

@@ -8,11 +8,11 @@
 
 namespace atlas_refine {
 
-/// Jacobian of the map rest triangle -> UV triangle.
-inline Mat2 jacobian(const RestTriangle& rest, const Vec2& p0, const Vec2& p1, const Vec2& p2) {
+/// Jacobian of the map rest triangle -> UV triangle; `inverse_edges` as in RestTriangle.
+inline Mat2 jacobian(const Mat2& inverse_edges, const Vec2& p0, const Vec2& p1, const Vec2& p2) {
   Mat2 edges;
   edges << p1 - p0, p2 - p0;
-  return edges * rest.inverse_edges;
+  return edges * inverse_edges;
 }
 
 /// 1/4 (|J|^2 + |J^-1|^2), infinite where det J <= 0. 1 where J is a rotation.
@@ -32,7 +32,7 @@ struct TriangleDerivatives {
 
 /// Energy, gradient and projected Hessian for a triangle of weight 1. Only the twist eigenvalue can be negative; it alone
 /// is clamped to zero, so away from strong compression this is the exact Hessian. det J must be positive.
-TriangleDerivatives symmetric_dirichlet_derivatives(const RestTriangle& rest, const Vec2& p0, const Vec2& p1, const Vec2& p2,
+TriangleDerivatives symmetric_dirichlet_derivatives(const Mat2& inverse_edges, const Vec2& p0, const Vec2& p1, const Vec2& p2,
                                                     bool project = true);
 
 }  // namespace atlas_refine

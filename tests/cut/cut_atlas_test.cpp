@@ -1,8 +1,9 @@
 // Cutting: pieces are rectangles that tile their charts, new points know where they lie, borders fit together in space.
-#include "cut/cut_charts.h"
+#include "cut/cut_atlas.h"
 
 #include <Eigen/Geometry>
 
+#include "cut/open_to_disk.h"
 #include "cut_checks.h"
 
 namespace atlas_refine {
@@ -29,11 +30,11 @@ Vec3 in_space(const std::vector<Vec3>& positions, const Support& support) {
   return sum;
 }
 
-TEST(CutCharts, PiecesAreRectanglesThatTileTheirCharts) {
+TEST(CutAtlas, PiecesAreRectanglesThatTileTheirCharts) {
   for (const Atlas& atlas : testing::many_atlases()) {
     const Laid laid = testing::laid(atlas);
     std::vector<double> surface(laid.set.charts.size(), 0), plane(laid.set.charts.size(), 0);
-    for (const CutPiece& piece : laid.cut.pieces) {
+    for (const Piece& piece : laid.cut.pieces) {
       testing::expect_positive(piece.mesh.uvs, piece.mesh.triangles);
       testing::expect_conforming(SplitMesh(piece.mesh));
       EXPECT_EQ(piece.mesh.boundary_loops.size(), 1u);
@@ -50,11 +51,11 @@ TEST(CutCharts, PiecesAreRectanglesThatTileTheirCharts) {
   }
 }
 
-TEST(CutCharts, VerticesKnowWhereTheyLie) {
+TEST(CutAtlas, VerticesKnowWhereTheyLie) {
   for (const Atlas& atlas : testing::many_atlases()) {
     const Laid laid = testing::laid(atlas);
     const auto positions = chart_positions(laid);
-    for (const CutPiece& piece : laid.cut.pieces) {
+    for (const Piece& piece : laid.cut.pieces) {
       const int count = piece.mesh.vertex_count();
       ASSERT_EQ(static_cast<int>(piece.vertices.size()), count);
       ASSERT_EQ(static_cast<int>(piece.points.size()), count);
@@ -65,7 +66,7 @@ TEST(CutCharts, VerticesKnowWhereTheyLie) {
           EXPECT_EQ(piece.supports[v].vertices[0], piece.vertices[v]);
           continue;
         }
-        const NewPoint& point = laid.cut.points[piece.points[v]];
+        const SurfacePoint& point = laid.cut.points[piece.points[v]];
         const Vec3 there = in_space(positions[point.chart], point.support);
         EXPECT_LT((there - in_space(positions[piece.chart], piece.supports[v])).norm(), 1e-9);
       }
@@ -74,7 +75,7 @@ TEST(CutCharts, VerticesKnowWhereTheyLie) {
         std::array<Vec3, 3> p;
         for (int k = 0; k < 3; ++k) p[k] = in_space(positions[piece.chart], piece.supports[piece.mesh.triangles[t][k]]);
         const double area = 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
-        EXPECT_NEAR(piece.mesh.rest[t].area, area, 1e-9 * (1 + area));
+        EXPECT_NEAR(piece.mesh.surface[t].area, area, 1e-9 * (1 + area));
       }
     }
   }
@@ -84,7 +85,7 @@ TEST(CutCharts, VerticesKnowWhereTheyLie) {
 std::map<std::pair<int, int>, int> edge_uses(const Laid& laid) {
   const auto points = space_points(laid.atlas, laid.set);
   std::map<std::pair<int, int>, int> uses;
-  for (const CutPiece& piece : laid.cut.pieces) {
+  for (const Piece& piece : laid.cut.pieces) {
     const auto id = [&](int v) { return piece.points[v] >= 0 ? ~piece.points[v] : points[piece.chart][piece.vertices[v]]; };
     for (const Triangle& t : piece.mesh.triangles) {
       for (int k = 0; k < 3; ++k) ++uses[std::minmax(id(t[k]), id(t[(k + 1) % 3]))];
@@ -93,7 +94,7 @@ std::map<std::pair<int, int>, int> edge_uses(const Laid& laid) {
   return uses;
 }
 
-TEST(CutCharts, TheSurfaceStaysClosed) {
+TEST(CutAtlas, TheSurfaceStaysClosed) {
   for (const Atlas& atlas : testing::many_atlases()) {
     const Laid laid = testing::laid(atlas);
     const auto points = space_points(laid.atlas, laid.set);
@@ -120,13 +121,13 @@ TEST(CutCharts, TheSurfaceStaysClosed) {
   }
 }
 
-TEST(CutCharts, BordersOfTwoChartsAreDividedAlike) {
+TEST(CutAtlas, BordersOfTwoChartsAreDividedAlike) {
   const Laid laid = testing::laid(testing::open_box(5), 0.85);
   ASSERT_FALSE(laid.cut.seams.empty());
   EXPECT_FALSE(laid.cut.points.empty());
   // A new point on a border in space is one point for both charts.
   std::map<int, std::set<int>> charts_of_point;
-  for (const CutPiece& piece : laid.cut.pieces) {
+  for (const Piece& piece : laid.cut.pieces) {
     for (int point : piece.points) {
       if (point >= 0) charts_of_point[point].insert(piece.chart);
     }
@@ -134,12 +135,54 @@ TEST(CutCharts, BordersOfTwoChartsAreDividedAlike) {
   EXPECT_TRUE(std::any_of(charts_of_point.begin(), charts_of_point.end(), [](const auto& p) { return p.second.size() == 2; }));
 }
 
-TEST(CutCharts, WithoutTrailsChartsStayWhole) {
+TEST(CutAtlas, WithoutTrailsChartsStayWhole) {
   const Atlas atlas = shapes::mesh(shapes::u_shape(), 0.12);
   Laid laid = testing::laid(atlas);
-  const CutCharts cut = cut_charts(laid.aligned, laid.set.charts, {{}}, space_points(atlas, laid.set));
+  const CutAtlas divided = divided_atlas({laid.aligned[0].mesh}, laid.set.charts, space_points(atlas, laid.set));
+  const CutAtlas cut = cut_along(divided, laid.set.charts, {});
   EXPECT_EQ(cut.pieces.size(), 1u);
   EXPECT_TRUE(cut.seams.empty());
+}
+
+TEST(CutAtlas, AnUncutAtlasIsTheIdentity) {
+  const std::vector<Chart> charts = testing::charts_of(shapes::disk_in_ring());
+  const CutAtlas atlas = whole_atlas(charts);
+  ASSERT_EQ(atlas.pieces.size(), charts.size());
+  EXPECT_TRUE(atlas.points.empty());
+  EXPECT_TRUE(atlas.seams.empty());
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    EXPECT_EQ(atlas.pieces[c].mesh.triangles, charts[c].triangles);
+    for (int v = 0; v < charts[c].vertex_count(); ++v)
+      EXPECT_EQ(value_at(atlas.pieces[c].supports[v], charts[c].uvs), charts[c].uvs[v]);
+  }
+}
+
+// A ring opened along a path, then cut along another: both are seams, met from both sides and counted once.
+TEST(CutAtlas, OpeningsAndPathsAreSeamsOnce) {
+  const std::vector<Chart> ring = {testing::chart_of(shapes::ring(), 0.1)};
+  SplitMesh mesh(ring[0]);
+  const Opening opening = open_to_disk(mesh);
+  EXPECT_EQ(opening.holes_cut, 1);
+  EXPECT_TRUE(opening.is_disk);
+  std::vector<std::vector<int>> points(1);
+  for (int v = 0; v < ring[0].vertex_count(); ++v) points[0].push_back(v);
+  const CutAtlas opened = divided_atlas({mesh}, ring, points);
+  const std::size_t doubled = mesh.vertex_count() - ring[0].vertex_count();
+  EXPECT_EQ(opened.seams.size(), doubled - 1);
+  // From every boundary vertex with an inner edge to another boundary vertex the piece falls apart.
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const auto fan = mesh.fan(v);
+    if (!mesh.is_boundary(fan.front())) continue;
+    for (std::size_t k = 1; k < fan.size(); ++k) {
+      const int other = mesh.to(fan[k]);
+      if (!mesh.on_boundary(other)) continue;
+      const SurfacePath path{0, {v, other}};
+      const CutAtlas cut = cut_along(opened, ring, {&path, 1});
+      EXPECT_EQ(cut.pieces.size(), 2u);
+      EXPECT_EQ(cut.seams.size(), opened.seams.size() + 1);
+      EXPECT_NEAR(cut.pieces[0].mesh.surface.area() + cut.pieces[1].mesh.surface.area(), ring[0].surface.area(), 1e-12);
+    }
+  }
 }
 
 }  // namespace

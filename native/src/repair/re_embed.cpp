@@ -1,5 +1,5 @@
 // Bijective re-embedding of one chart.
-#include "reduce/re_embed.h"
+#include "repair/re_embed.h"
 
 #include <cmath>
 #include <optional>

@@ -1,5 +1,5 @@
 // Trails: straight to the last bit, from boundary to boundary, past vertices and through edges without a flip.
-#include "geometry/axis_trails.h"
+#include "layout/axis_trails.h"
 
 #include "cut_checks.h"
 

@@ -1,5 +1,5 @@
 // Walking along an axis from vertex to vertex.
-#include "geometry/axis_trails.h"
+#include "layout/axis_trails.h"
 
 #include <cmath>
 

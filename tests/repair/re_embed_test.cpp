@@ -1,5 +1,5 @@
 // A chart that overlaps itself becomes injective, near its own optimum; a handle is refused.
-#include "reduce/re_embed.h"
+#include "repair/re_embed.h"
 
 #include <gtest/gtest.h>
 

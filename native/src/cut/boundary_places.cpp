@@ -1,0 +1,126 @@
+// Matching divided edges across seams.
+#include "cut/boundary_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace atlas_refine {
+namespace {
+
+// Two points of an edge in space, as fractions of it: symmetric charts are cut at the same places but for rounding.
+constexpr double kSamePlace = 1e-4;
+
+/// Where on an edge of the input a vertex that divides it lies.
+struct Place {
+  SpaceEdge edge;
+  double along;  ///< from low to high, in (0, 1)
+};
+
+/// Places by edge.
+using Places = std::map<SpaceEdge, std::vector<double>>;
+
+/// Where a point between two vertices of its chart lies in space; nothing for a vertex and for a point inside a triangle.
+std::optional<Place> place_of(const std::vector<int>& space_points, const Support& support) {
+  if (support.vertices[1] < 0 || support.vertices[2] >= 0) return std::nullopt;
+  const int a = space_points[support.vertices[0]], b = space_points[support.vertices[1]];
+  return Place{{std::min(a, b), std::max(a, b)}, a < b ? support.weights[1] : support.weights[0]};
+}
+
+/// The divided boundary of one chart in space.
+struct ChartBoundary {
+  const std::vector<int>& space_points;
+  const SplitMesh& mesh;
+
+  /// The edge in space of a boundary side; its ends are the edge's, or points on it.
+  SpaceEdge edge_of(int from, int to) const {
+    for (int v : {from, to}) {
+      if (const auto place = place_of(space_points, mesh.supports[v])) return place->edge;
+    }
+    const int a = space_points[mesh.supports[from].vertices[0]], b = space_points[mesh.supports[to].vertices[0]];
+    return {std::min(a, b), std::max(a, b)};
+  }
+  double along_of(int vertex, const SpaceEdge& edge) const {
+    if (const auto place = place_of(space_points, mesh.supports[vertex])) return place->along;
+    return space_points[mesh.supports[vertex].vertices[0]] == edge.low ? 0 : 1;
+  }
+};
+
+void collect_places(const SplitMesh& mesh, const std::vector<int>& space_points, Places& places) {
+  for (const auto& loop : mesh.boundary_loops()) {
+    for (const Side& s : loop) {
+      const auto place = place_of(space_points, mesh.supports[mesh.from(s)]);
+      if (!place) continue;
+      std::vector<double>& known = places[place->edge];
+      const auto same = [&](double other) { return std::abs(other - place->along) < kSamePlace; };
+      if (std::none_of(known.begin(), known.end(), same)) known.push_back(place->along);
+    }
+  }
+}
+
+/// Where a side is to be divided, as a fraction of it; nothing where it has no place inside.
+std::optional<double> place_within(const ChartBoundary& boundary, int from, int to, const Places& places) {
+  const SpaceEdge edge = boundary.edge_of(from, to);
+  const auto found = places.find(edge);
+  if (found == places.end()) return std::nullopt;
+  const double start = boundary.along_of(from, edge), end = boundary.along_of(to, edge);
+  for (const double along : found->second) {
+    const double t = (along - start) / (end - start);
+    const bool inside = t > kSamePlace && t < 1 - kSamePlace;
+    if (inside && std::abs(along - start) >= kSamePlace && std::abs(along - end) >= kSamePlace) return t;
+  }
+  return std::nullopt;
+}
+
+void divide_sides(SplitMesh& mesh, const std::vector<int>& space_points, const Places& places) {
+  std::vector<std::pair<int, int>> sides;
+  for (const auto& loop : mesh.boundary_loops()) {
+    for (const Side& s : loop) sides.emplace_back(mesh.from(s), mesh.to(s));
+  }
+  while (!sides.empty()) {
+    const auto [from, to] = sides.back();
+    sides.pop_back();
+    const auto t = place_within({space_points, mesh}, from, to, places);
+    if (!t) continue;
+    const Vec2 uv = mesh.uvs[from] + *t * (mesh.uvs[to] - mesh.uvs[from]);
+    const int middle = mesh.split(mesh.find_side(from, to), *t, uv);
+    sides.emplace_back(from, middle);
+    sides.emplace_back(middle, to);
+  }
+}
+
+}  // namespace
+
+void match_boundaries(std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& space_points) {
+  Places places;
+  for (std::size_t c = 0; c < meshes.size(); ++c) collect_places(meshes[c], space_points[c], places);
+  for (std::size_t c = 0; c < meshes.size(); ++c) divide_sides(meshes[c], space_points[c], places);
+}
+
+std::vector<int> PointNumbers::of_chart(int chart, const SplitMesh& mesh) {
+  std::vector<char> on_boundary(mesh.vertex_count(), 0);
+  for (const auto& loop : mesh.boundary_loops()) {
+    for (const Side& s : loop) on_boundary[mesh.from(s)] = 1;
+  }
+  std::vector<int> numbers(mesh.vertex_count(), -1);
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.supports[v].vertices[1] >= 0) numbers[v] = number(chart, mesh.supports[v], on_boundary[v]);
+  }
+  return numbers;
+}
+
+int PointNumbers::number(int chart, const Support& support, bool on_boundary) {
+  const auto place = place_of(space_points_[chart], support);
+  const int next = static_cast<int>(points_.size());
+  if (on_boundary && place) {
+    auto& known = on_edges_[place->edge];
+    for (const auto& [along, point] : known) {
+      if (std::abs(along - place->along) < kSamePlace) return point;
+    }
+    known.emplace_back(place->along, next);
+  }
+  points_.push_back({chart, support});
+  return next;
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,38 @@
+// Places on boundary edges in space: what is divided on one side of a seam is divided on the other, at one and the same point.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "cut/cut_atlas.h"
+
+namespace atlas_refine {
+
+/// A boundary edge in space; `low` < `high` are points in space.
+struct SpaceEdge {
+  int low, high;
+  auto operator<=>(const SpaceEdge&) const = default;
+};
+
+/// Divides every boundary side where some chart has a vertex at that place in space, so that the mesh in space stays closed.
+/// `space_points` as in divided_atlas.
+void match_boundaries(std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& space_points);
+
+/// Numbers the points of divided charts: one number for all vertices at one place of a boundary edge in space.
+class PointNumbers {
+ public:
+  PointNumbers(const std::vector<std::vector<int>>& space_points, std::vector<SurfacePoint>& points)
+      : space_points_(space_points), points_(points) {}
+
+  /// Per vertex the index of its point, -1 where it is a vertex of the chart.
+  std::vector<int> of_chart(int chart, const SplitMesh& mesh);
+
+ private:
+  int number(int chart, const Support& support, bool on_boundary);
+
+  const std::vector<std::vector<int>>& space_points_;
+  std::vector<SurfacePoint>& points_;
+  std::map<SpaceEdge, std::vector<std::pair<double, int>>> on_edges_;
+};
+
+}  // namespace atlas_refine

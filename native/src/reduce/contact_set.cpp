@@ -1,0 +1,197 @@
+// Search, value and derivatives of contacts and walls.
+#include "reduce/contact_set.h"
+
+#include <algorithm>
+#include <array>
+
+#include "solve/contact_barrier.h"
+
+namespace atlas_refine {
+namespace {
+
+// Within a piece the barrier reaches at most this share of the boundary between the two points: else corners repel themselves.
+constexpr double kRangePerArc = 0.3;
+// The pattern holds pairs up to this multiple of the reach, so that it changes seldom.
+constexpr double kPatternReach = 1.7;
+
+/// Vertices of the point, the edge's start and its end.
+std::array<int, 3> vertices_of(const Boundary& boundary, const PointEdge& pair) {
+  return {boundary.vertex[pair.point], boundary.vertex[pair.edge], boundary.vertex[boundary.next[pair.edge]]};
+}
+
+Closest closest(const Boundary& boundary, const std::vector<Vec2>& x, const PointEdge& pair) {
+  const auto [point, start, end] = vertices_of(boundary, pair);
+  return closest_on_segment(x[point], x[start], x[end]);
+}
+
+bool of_one_piece(const Boundary& boundary, const PointEdge& pair) {
+  return boundary.chart[pair.point] == boundary.chart[pair.edge];
+}
+
+ContactDerivatives derivatives(const ReduceModel& model, const ReduceState& state, const Contact& contact, double unit) {
+  const auto [point, start, end] = vertices_of(model.boundary, contact.pair);
+  return contact_derivatives(state.x[point], state.x[start], state.x[end], contact.floor_fraction * unit, contact.range);
+}
+
+/// Slack of a contact beyond its floor, in its range.
+double slack(const ReduceModel& model, const ReduceState& state, const Contact& contact, double unit) {
+  const Closest nearest = closest(model.boundary, state.x, contact.pair);
+  return (nearest.distance - contact.floor_fraction * unit) / contact.range;
+}
+
+}  // namespace
+
+std::vector<double> measure_own_floors(const ReduceModel& model) {
+  const Boundary& boundary = model.boundary;
+  const std::vector<Vec2>& x = model.start.x;
+  const double unit = gap_unit(model, model.start.box);
+  const double far_arc = far_arc_length(model, model.start.box);
+  std::vector<double> floors(boundary.size(), model.gap.value);
+  for (const PointEdge& pair : near_pairs(boundary, x, {}, model.gap.value * unit)) {
+    if (!of_one_piece(boundary, pair) || boundary.arc_between(pair.point, pair.edge) < far_arc) continue;
+    const Closest nearest = closest(boundary, x, pair);
+    if (faces_outside(boundary, x, pair, nearest))
+      floors[pair.point] = std::min(floors[pair.point], 0.999 * nearest.distance / unit);
+  }
+  return floors;
+}
+
+ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step) {
+  const Boundary& boundary = model.boundary;
+  const double unit = gap_unit(model, state.box);
+  const double far_arc = far_arc_length(model, state.box);
+  ContactSet found;
+  for (const PointEdge& pair : near_pairs(boundary, state.x, step, model.gap.value * unit + model.range)) {
+    Contact contact{pair, model.gap.value, model.range};
+    if (of_one_piece(boundary, pair)) {
+      const Closest nearest = closest(boundary, state.x, pair);
+      if (!faces_outside(boundary, state.x, pair, nearest)) continue;
+      const double arc = boundary.arc_between(pair.point, pair.edge);
+      contact.floor_fraction = arc < far_arc ? 0 : model.own_floor[pair.point];
+      contact.range = std::min(model.range, kRangePerArc * arc);
+      // Borders that have turned to face each other below the floor need not part again.
+      if (nearest.distance <= contact.floor_fraction * unit) contact.floor_fraction = 0.9 * nearest.distance / unit;
+    }
+    found.push_back(contact);
+  }
+  return found;
+}
+
+double barrier(const ReduceModel& model, const ReduceState& state, const ContactSet& contacts) {
+  const double unit = gap_unit(model, state.box);
+  double sum = 0;
+  for (const Contact& contact : contacts) sum += log_barrier(slack(model, state, contact, unit)).value;
+  if (!model.has_box) return sum;
+  for (int v : model.boundary.vertex) {
+    for (int axis = 0; axis < 2; ++axis) {
+      sum += log_barrier(state.x[v][axis] / model.range).value +
+             log_barrier((state.box[axis] - state.x[v][axis]) / model.range).value;
+    }
+  }
+  return sum;
+}
+
+double least_slack(const ReduceModel& model, const ReduceState& state) {
+  const double unit = gap_unit(model, state.box);
+  double least = 1;
+  for (const Contact& contact : find_contacts(model, state)) least = std::min(least, slack(model, state, contact, unit));
+  return least;
+}
+
+std::vector<std::pair<int, int>> coupled_nodes(const ReduceModel& model, const ReduceState& state, const ContactSet& contacts) {
+  const Boundary& boundary = model.boundary;
+  std::vector<std::pair<int, int>> pairs;
+  const auto add = [&](const PointEdge& pair) {
+    const auto [point, start, end] = vertices_of(boundary, pair);
+    pairs.emplace_back(point, start);
+    pairs.emplace_back(point, end);
+  };
+  for (const Contact& contact : contacts) add(contact.pair);
+  const double reach = kPatternReach * (model.gap.length(state.box) + model.range);
+  for (const PointEdge& pair : near_pairs(boundary, state.x, {}, reach)) {
+    if (!of_one_piece(boundary, pair) || faces_outside(boundary, state.x, pair, closest(boundary, state.x, pair))) add(pair);
+  }
+  if (model.has_box) {
+    for (int v : boundary.vertex) pairs.emplace_back(v, model.box_node());
+  }
+  return pairs;
+}
+
+bool covers(const BlockLdlt& matrix, const ReduceModel& model, const ContactSet& contacts) {
+  return matrix.node_count() > 0 && std::all_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
+           const auto [point, start, end] = vertices_of(model.boundary, contact.pair);
+           return matrix.slot(point, start) >= 0 && matrix.slot(point, end) >= 0;
+         });
+}
+
+void add_contacts(const ReduceModel& model, const ReduceState& state, const ContactSet& contacts, double stiffness,
+                  BlockSystem& system) {
+  const double unit = gap_unit(model, state.box);
+  double unit_slope = 0;  // d barrier / d gap unit
+  for (const Contact& contact : contacts) {
+    const ContactDerivatives d = derivatives(model, state, contact, unit);
+    if (d.value == 0) continue;
+    const std::array<int, 3> v = vertices_of(model.boundary, contact.pair);
+    unit_slope -= d.slope * contact.floor_fraction;
+    for (int i = 0; i < 3; ++i) {
+      system.gradient[v[i]] += stiffness * d.gradient[i];
+      for (int j = 0; j < 3; ++j) system.matrix.add(v[i], v[j], stiffness * d.hessian[i][j]);
+    }
+  }
+  if (!model.has_box) return;
+  Vec2 unit_gradient;
+  if (model.gap.unit == Gap::Unit::BoxDiagonal)
+    unit_gradient = state.box / state.box.norm();
+  else
+    unit_gradient = state.box.x() >= state.box.y() ? Vec2(1, 0) : Vec2(0, 1);
+  system.gradient[model.box_node()] += on_box_node(model, stiffness * unit_slope * unit_gradient);
+}
+
+void add_walls(const ReduceModel& model, const ReduceState& state, double stiffness, BlockSystem& system) {
+  const int box_node = model.box_node();
+  const double aspect = model.aspect, range = model.range;
+  Vec2 sides = Vec2::Zero(), sides_stiff = Vec2::Zero();  // by width and height
+  for (int v : model.boundary.vertex) {
+    Mat2 coupling = Mat2::Zero();  // rows: vertex, columns: sides
+    for (int axis = 0; axis < 2; ++axis) {
+      const BarrierValue low = log_barrier(state.x[v][axis] / range);
+      const BarrierValue high = log_barrier((state.box[axis] - state.x[v][axis]) / range);
+      system.gradient[v][axis] += stiffness * (low.slope - high.slope) / range;
+      const double low_stiff = stiffness * low.curvature / (range * range);
+      const double high_stiff = stiffness * high.curvature / (range * range);
+      system.matrix.diagonal[v](axis, axis) += low_stiff + high_stiff;
+      sides[axis] += stiffness * high.slope / range;
+      sides_stiff[axis] += high_stiff;
+      coupling(axis, axis) = -high_stiff;
+    }
+    if (coupling(0, 0) == 0 && coupling(1, 1) == 0) continue;
+    if (aspect > 0) {
+      coupling(0, 0) *= aspect;
+      coupling(1, 0) = coupling(1, 1);
+      coupling.col(1).setZero();
+    }
+    system.matrix.add(v, box_node, coupling);
+  }
+  system.gradient[box_node] += on_box_node(model, sides);
+  if (aspect == 0) {
+    system.matrix.diagonal[box_node] += sides_stiff.asDiagonal();
+  } else {
+    system.matrix.diagonal[box_node](0, 0) += aspect * aspect * sides_stiff.x() + sides_stiff.y();
+    system.matrix.diagonal[box_node](1, 1) += 1;  // an empty equation keeps the node two wide
+  }
+}
+
+std::vector<Vec2> contact_forces(const ReduceModel& model, const ReduceState& state, const ContactSet& contacts,
+                                 double stiffness) {
+  const double unit = gap_unit(model, state.box);
+  std::vector<Vec2> forces(model.vertex_count(), Vec2::Zero());
+  for (const Contact& contact : contacts) {
+    const ContactDerivatives d = derivatives(model, state, contact, unit);
+    if (d.value == 0) continue;
+    const std::array<int, 3> v = vertices_of(model.boundary, contact.pair);
+    for (int i = 0; i < 3; ++i) forces[v[i]] -= stiffness * d.gradient[i];
+  }
+  return forces;
+}
+
+}  // namespace atlas_refine

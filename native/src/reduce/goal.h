@@ -1,0 +1,23 @@
+// What the options ask of the pieces: relative scale, shapes to keep, faces that matter (section 3.4, section 4 "Local control").
+#pragma once
+
+#include <vector>
+
+#include "atlas_refine/options.h"
+#include "cut/cut_atlas.h"
+#include "solve/objective.h"
+
+namespace atlas_refine {
+
+/// UV length per surface length that each chart is to have. Equal: 1 for all. Keep: what it has in `input`, normalised so that
+/// all charts together have the area of the surface; whatever is done to a chart later, it is to have that again.
+std::vector<double> wanted_density(const std::vector<Chart>& input, Density density);
+
+/// Scales each chart of `charts` as it is now to its wanted density. Equal scales to the chart's own optimum of E_d, keep to the
+/// area. True where the charts' relative scales changed by more than a thousandth.
+bool set_density(std::vector<Chart>& charts, const std::vector<double>& wanted, Density density);
+
+/// The objective of `atlas`, whose charts were `input`.
+Objective goal_of(const std::vector<Chart>& input, const CutAtlas& atlas, const RefineOptions& options);
+
+}  // namespace atlas_refine

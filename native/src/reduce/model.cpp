@@ -1,0 +1,167 @@
+// Set-up of the unknowns, their measures, and steps that keep them free of flips and collisions.
+#include "reduce/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/collision.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+#include "reduce/contact_set.h"
+
+namespace atlas_refine {
+namespace {
+
+// How far the barrier is felt beyond the gap, as a fraction of the box diagonal.
+constexpr double kRangeFraction = 0.0025;
+// A step moves no vertex further than this fraction of the surface's size, which bounds the search for collisions.
+constexpr double kLongestMove = 0.25;
+constexpr double kShortOf = 0.95;  // of the first flip or collision
+
+Box box_of(const std::vector<Vec2>& x) {
+  Box box{x.front(), x.front()};
+  for (const Vec2& p : x) {
+    box.min = box.min.cwiseMin(p);
+    box.max = box.max.cwiseMax(p);
+  }
+  return box;
+}
+
+void flatten(const std::vector<Chart>& charts, ReduceModel& model) {
+  int count = 0;
+  for (const Chart& chart : charts) {
+    model.first_vertex.push_back(count);
+    for (const Triangle& t : chart.triangles) model.triangles.push_back({count + t[0], count + t[1], count + t[2]});
+    model.surface.insert(model.surface.end(), chart.surface.begin(), chart.surface.end());
+    for (const Vec2& uv : chart.uvs) model.start.x.push_back(uv / model.objective.unit);
+    count += chart.vertex_count();
+  }
+  model.first_vertex.push_back(count);
+}
+
+void place_start(ReduceModel& model) {
+  const Box tight = box_of(model.start.x);
+  const Vec2 size = box_of_aspect(tight, model.aspect).size();
+  model.range = kRangeFraction * size.norm();
+  model.open_unit = model.gap.unit == Gap::Unit::BoxDiagonal ? size.norm() : size.maxCoeff();
+  const double slack = 0.5 * model.range;
+  for (Vec2& x : model.start.x) x += Vec2::Constant(slack) - tight.min;
+  model.start.box = box_of_aspect({Vec2::Zero(), size + Vec2::Constant(2 * slack)}, model.aspect).size();
+}
+
+void set_masses(ReduceModel& model) {
+  model.masses.assign(model.node_count(), 0);
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    for (int v : model.triangles[t]) model.masses[v] += model.objective.weight[t] / 3;
+  }
+  if (model.has_box) model.masses.back() = 1;
+}
+
+}  // namespace
+
+ReduceModel make_model(const ReduceProblem& problem) {
+  ReduceModel model;
+  model.objective = problem.objective ? *problem.objective : make_objective(problem.charts);
+  model.gap = problem.gap;
+  model.aspect = problem.box_aspect;
+  model.has_box = problem.pe_target > 0;
+  model.threads = problem.threads;
+  flatten(problem.charts, model);
+  set_masses(model);
+  model.boundary = make_boundary(problem.charts, model.first_vertex);
+  for (double& arc : model.boundary.arc) arc /= model.objective.unit;
+  for (double& length : model.boundary.loop_length) length /= model.objective.unit;
+  place_start(model);
+  model.own_floor = measure_own_floors(model);
+  return model;
+}
+
+double gap_unit(const ReduceModel& model, const Vec2& box) {
+  if (!model.has_box) return model.open_unit;
+  return model.gap.unit == Gap::Unit::BoxDiagonal ? box.norm() : box.maxCoeff();
+}
+
+double far_arc_length(const ReduceModel& model, const Vec2& box) {
+  return kFarArc * (model.has_box ? box.norm() : model.start.box.norm());
+}
+
+double chart_area(const ReduceModel& model, const std::vector<Vec2>& x) {
+  const Boundary& boundary = model.boundary;
+  double twice = 0;
+  for (int e = 0; e < boundary.size(); ++e) {
+    const Vec2& a = x[boundary.vertex[e]];
+    const Vec2& b = x[boundary.vertex[boundary.next[e]]];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return 0.5 * twice;
+}
+
+double box_pe(const ReduceModel& model, const ReduceState& state) { return chart_area(model, state.x) / state.box.prod(); }
+
+double tight_pe(const ReduceModel& model, const ReduceState& state) {
+  return chart_area(model, state.x) / box_of_aspect(box_of(state.x), model.aspect).area();
+}
+
+double surface_distortion(const ReduceModel& model, const std::vector<Vec2>& x) {
+  return dirichlet_sums(model.surface, model.triangles, x).best_energy();
+}
+
+std::vector<Vec2> pe_gradient(const ReduceModel& model, const ReduceState& state) {
+  std::vector<Vec2> gradient(model.node_count(), Vec2::Zero());
+  const Boundary& boundary = model.boundary;
+  const double area = chart_area(model, state.x);
+  for (int e = 0; e < boundary.size(); ++e) {
+    const Vec2 chord = state.x[boundary.vertex[boundary.next[e]]] - state.x[boundary.vertex[boundary.previous[e]]];
+    gradient[boundary.vertex[e]] += Vec2(chord.y(), -chord.x()) / (2 * area);
+  }
+  gradient[model.box_node()] += on_box_node(model, -state.box.cwiseInverse());
+  return gradient;
+}
+
+Vec2 on_box_node(const ReduceModel& model, const Vec2& by_sides) {
+  return model.aspect == 0 ? by_sides : Vec2(model.aspect * by_sides.x() + by_sides.y(), 0);
+}
+
+ReduceState moved(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step, const StepBounds& bounds,
+                  double fraction) {
+  ReduceState out = state;
+  for (std::size_t p = 0; p < bounds.of_piece.size(); ++p) {
+    const double part = fraction * bounds.of_piece[p];
+    for (int v = model.first_vertex[p]; v < model.first_vertex[p + 1]; ++v) out.x[v] += part * step[v];
+  }
+  if (!model.has_box) return out;
+  const Vec2& node = step[model.box_node()];
+  const Vec2 sides = model.aspect == 0 ? node : Vec2(model.aspect * node.x(), node.x());
+  out.box += fraction * bounds.least() * sides;
+  return out;
+}
+
+StepBounds free_step(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step) {
+  const int count = model.vertex_count();
+  double longest = 0;
+  for (int v = 0; v < count; ++v) longest = std::max(longest, step[v].norm());
+  double limit = std::min(1.0, kLongestMove / std::max(longest, 1e-300));
+  limit = flip_free_fraction(model.triangles, state.x, step, limit, kShortOf);
+  std::vector<Vec2> scaled(count);
+  for (int v = 0; v < count; ++v) scaled[v] = limit * step[v];
+  const auto moving = [&](int v) { return Moving{state.x[v], step[v]}; };
+  const Boundary& boundary = model.boundary;
+  const double whole = limit;
+  for (const PointEdge& pair : near_pairs(boundary, state.x, scaled, 0)) {
+    const double hit = hit_time(moving(boundary.vertex[pair.point]), moving(boundary.vertex[pair.edge]),
+                                moving(boundary.vertex[boundary.next[pair.edge]]), whole);
+    limit = std::min(limit, kShortOf * hit);
+  }
+  return {std::vector<double>(model.first_vertex.size() - 1, limit)};
+}
+
+std::vector<std::vector<Vec2>> by_piece(const ReduceModel& model, const std::vector<Vec2>& values, double factor) {
+  std::vector<std::vector<Vec2>> out;
+  for (std::size_t p = 0; p + 1 < model.first_vertex.size(); ++p) {
+    auto& own = out.emplace_back();
+    for (int v = model.first_vertex[p]; v < model.first_vertex[p + 1]; ++v) own.push_back(factor * values[v]);
+  }
+  return out;
+}
+
+}  // namespace atlas_refine

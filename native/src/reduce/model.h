@@ -1,0 +1,67 @@
+// What one optimisation works on: all pieces as flat arrays, their objective, and what does not change between iterations.
+#pragma once
+
+#include <vector>
+
+#include "geometry/boundary.h"
+#include "reduce/reduce.h"
+#include "solve/newton.h"
+
+namespace atlas_refine {
+
+/// Positions of all vertices, and the box [0, width] x [0, height] that holds them. Solver units: the surface has area 1.
+struct ReduceState {
+  std::vector<Vec2> x;
+  Vec2 box = Vec2::Zero();
+};
+
+/// Nodes are the vertices and, where there is a box, one more that stands for its sides: (width, height), or (height, unused)
+/// where the aspect is fixed.
+struct ReduceModel {
+  std::vector<int> first_vertex;  ///< of each piece; then the number of vertices
+  std::vector<Triangle> triangles;
+  Objective objective;
+  std::vector<RestTriangle> surface;  ///< in model units: what max_distortion is measured on
+  std::vector<double> masses;         ///< one per node: a third of the triangles around it; 1 for the box
+  Boundary boundary;
+  std::vector<double> own_floor;  ///< per boundary vertex: fraction of the gap unit to far edges of its own piece
+  Gap gap;
+  double range = 0;  ///< the barrier is felt so far beyond the gap
+  double aspect = 0;
+  bool has_box = false;
+  double open_unit = 1;  ///< gap unit where there is no box
+  int threads = 1;
+  ReduceState start;
+
+  int vertex_count() const { return first_vertex.back(); }
+  int node_count() const { return vertex_count() + (has_box ? 1 : 0); }
+  int box_node() const { return vertex_count(); }
+};
+
+ReduceModel make_model(const ReduceProblem& problem);
+
+/// What the gap is a fraction of.
+double gap_unit(const ReduceModel& model, const Vec2& box);
+/// Borders of one piece between which the boundary is at least so long face each other.
+double far_arc_length(const ReduceModel& model, const Vec2& box);
+
+double chart_area(const ReduceModel& model, const std::vector<Vec2>& x);
+double box_pe(const ReduceModel& model, const ReduceState& state);    ///< against the unknown box
+double tight_pe(const ReduceModel& model, const ReduceState& state);  ///< against the vertices' box of the asked aspect
+/// Gradient of log box_pe, one entry per node.
+std::vector<Vec2> pe_gradient(const ReduceModel& model, const ReduceState& state);
+/// E_d on the surface, under the one global scale that minimises it.
+double surface_distortion(const ReduceModel& model, const std::vector<Vec2>& x);
+
+/// A gradient by the sides of the box as the box node has it.
+Vec2 on_box_node(const ReduceModel& model, const Vec2& by_sides);
+/// state + fraction * bounds * step; the box takes the smallest of the bounds.
+ReduceState moved(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step, const StepBounds& bounds,
+                  double fraction);
+/// Largest parts of `step` free of flips and collisions. All equal: the smallest of all pieces.
+StepBounds free_step(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step);
+
+/// One array per piece, from flat arrays over vertices; `factor` brings solver units to others.
+std::vector<std::vector<Vec2>> by_piece(const ReduceModel& model, const std::vector<Vec2>& values, double factor);
+
+}  // namespace atlas_refine

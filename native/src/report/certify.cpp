@@ -1,0 +1,184 @@
+// Storing, testing, measuring.
+#include "report/certify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "atlas_refine/error.h"
+#include "input/check_atlas.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+#include "report/cut_faces.h"
+#include "report/journal.h"
+
+namespace atlas_refine {
+namespace {
+
+/// The value that is left after storing it in single precision. GCC 12 drops the plain round trip where it vectorises two of
+/// them.
+double rounded_to_single(double value) {
+  volatile float stored = static_cast<float>(value);
+  return stored;
+}
+
+/// UVs in the unit square as they will be stored, per piece.
+std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, const RefineOptions& options) {
+  const Box box = box_of_aspect(uv_box(pieces), options.box_aspect);
+  const Vec2 sides = options.box_aspect > 0 ? box.size() : Vec2::Constant(box.size().maxCoeff());
+  std::vector<std::vector<Vec2>> out;
+  for (const Chart& piece : pieces) {
+    std::vector<Vec2>& uvs = out.emplace_back();
+    for (const Vec2& p : piece.uvs) {
+      Vec2 uv = (p - box.min).cwiseQuotient(sides).cwiseMin(1.0);
+      if (options.stored == Stored::Float32) uv = Vec2(rounded_to_single(uv.x()), rounded_to_single(uv.y()));
+      uvs.push_back(uv);
+    }
+  }
+  return out;
+}
+
+/// The faces of the output, and what each of their corners stands for.
+CutFaces faces_of(const InputAtlas& input, const CutAtlas& atlas, bool cut) {
+  if (cut) return cut_faces(input.atlas, input.set, atlas);
+  CutFaces out;
+  out.mesh.face_offsets = input.atlas.face_offsets;
+  out.mesh.corner_vertices = input.atlas.corner_vertices;
+  out.corners = input.set.corners;
+  out.positions = input.atlas.positions;
+  return out;
+}
+
+class Refusal {
+ public:
+  Refusal(const Atlas& atlas) : prefix_(message_prefix(atlas) + "the result was withheld: ") {}
+  [[noreturn]] void operator()(const std::string& why, int chart = -1, int face = -1) const {
+    throw RefineError(ErrorCode::NotCertified, "certify", prefix_ + why, chart, face);
+  }
+
+ private:
+  std::string prefix_;
+};
+
+void require_valid(const InputAtlas& input, const Atlas& output, const ChartSet& set, std::size_t pieces, bool cut) {
+  const Refusal refuse(output);
+  const Validity validity = validate_split(set);
+  if (!validity.valid()) refuse(validity.problem, validity.chart, validity.face);
+  const bool seams_kept = cut || set.seam_edges == input.set.seam_edges;
+  if (!seams_kept || set.charts.size() != pieces) refuse("its seams are not those that were meant");
+}
+
+void require_gap(const Atlas& output, const std::vector<Chart>& stored, const Gap& gap, double box_aspect) {
+  const Vec2 box = box_of_aspect(uv_box(stored), box_aspect).size();
+  const double between = gap_between_charts(stored);
+  if (between >= gap.length(box)) return;
+  Refusal refuse(output);
+  refuse("two charts are " + number_text("%.6g", between / box.norm()) + " of the diagonal apart, nearer than the gap of " +
+         number_text("%g", gap.value));
+}
+
+int faces_among(const Chart& chart) {
+  std::vector<int> faces = chart.triangle_faces;
+  std::sort(faces.begin(), faces.end());
+  return static_cast<int>(std::unique(faces.begin(), faces.end()) - faces.begin());
+}
+
+/// Linear texel density of UV area on surface area.
+double density(double uv_area, double surface_area) { return surface_area > 0 ? std::sqrt(uv_area / surface_area) : 0; }
+
+/// The largest finite stretch of a chart's triangles at the atlas' scale.
+double largest_stretch(const Chart& chart, double scale) {
+  const std::vector<double> stretch = triangle_stretch(chart, scale);
+  return *std::max_element(stretch.begin(), stretch.end());
+}
+
+double surface_area(const std::vector<Chart>& charts) {
+  double area = 0;
+  for (const Chart& chart : charts) area += chart.surface.area();
+  return area;
+}
+
+/// What each chart of the input has become; `charts` tells which of them each stored piece is part of.
+std::vector<ChartReport> chart_reports(const InputAtlas& input, const std::vector<Chart>& stored,
+                                       const std::vector<int>& charts) {
+  const std::vector<Chart>& before = input.set.charts;
+  const double scale = dirichlet_sums(stored).best_scale();
+  const double mean_before = density(uv_area(before), surface_area(before));
+  const double mean_after = density(uv_area(stored), surface_area(stored));
+  std::vector<ChartReport> out(before.size());
+  std::vector<DirichletSums> sums(before.size());
+  std::vector<double> areas(before.size(), 0);
+  for (std::size_t p = 0; p < stored.size(); ++p) {
+    const int c = charts[p];
+    out[c].stretch_max = std::max(out[c].stretch_max, largest_stretch(stored[p], scale));
+    sums[c] += dirichlet_sums(stored[p]);
+    areas[c] += uv_area(stored[p]);
+  }
+  for (std::size_t c = 0; c < before.size(); ++c) {
+    ChartReport& report = out[c];
+    report.faces = faces_among(before[c]);
+    report.area = before[c].surface.area();
+    report.mirrored = input.set.mirrored[c];
+    report.distortion_before = dirichlet_sums(before[c]).best_energy();
+    report.distortion_after = sums[c].best_energy();
+    report.density_before = density(uv_area(before[c]), report.area) / mean_before;
+    report.density_after = density(areas[c], report.area) / mean_after;
+  }
+  return out;
+}
+
+std::vector<PieceReport> piece_reports(const std::vector<Chart>& stored, const CutAtlas& atlas, const CutFaces& faces) {
+  const double scale = dirichlet_sums(stored).best_scale();
+  std::vector<PieceReport> out;
+  for (std::size_t p = 0; p < stored.size(); ++p) {
+    out.push_back({atlas.pieces[p].chart, 0, stored[p].surface.area(), dirichlet_sums(stored[p]).best_energy(),
+                   largest_stretch(stored[p], scale)});
+  }
+  for (std::size_t f = 0; f + 1 < faces.mesh.face_offsets.size(); ++f)
+    ++out[faces.corners[faces.mesh.face_offsets[f]].chart].faces;
+  return out;
+}
+
+/// The pieces where the input's UVs have them.
+std::vector<Chart> pieces_of_input(const InputAtlas& input, const CutAtlas& atlas) {
+  std::vector<Chart> out = meshes_of(atlas);
+  for (std::size_t p = 0; p < out.size(); ++p) {
+    const Piece& piece = atlas.pieces[p];
+    for (int v = 0; v < out[p].vertex_count(); ++v)
+      out[p].uvs[v] = value_at(piece.supports[v], input.set.charts[piece.chart].uvs);
+  }
+  return out;
+}
+
+}  // namespace
+
+CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap& gap, const RefineOptions& options) {
+  const bool cut = !atlas.seams.empty() || !atlas.points.empty();
+  CutFaces faces = faces_of(input, atlas, cut);
+  Atlas output{input.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
+  CertifiedAtlas out{.stored = meshes_of(atlas)};
+  const auto uvs = stored_uvs(out.stored, options);
+  for (const CornerRef& corner : faces.corners) output.corner_uvs.push_back(uvs[corner.chart][corner.vertex]);
+  ChartSet set = split_charts(output);
+  require_valid(input, output, set, out.stored.size(), cut);
+  stretch_to_texture(set.charts, options.box_aspect);
+  out.after = measure_split(output, set, options.box_aspect);
+  for (std::size_t p = 0; p < out.stored.size(); ++p) out.stored[p].uvs = uvs[p];
+  stretch_to_texture(out.stored, options.box_aspect);
+  require_gap(output, out.stored, gap, options.box_aspect);
+  // The same triangles in the same order as the input's: only then can E_2 be told.
+  out.after.distortion_to_input = dirichlet_sums_between(pieces_of_input(input, atlas), out.stored).best_energy();
+  out.charts = chart_reports(input, out.stored, charts_of(atlas));
+  if (cut) out.pieces = piece_reports(out.stored, atlas, faces);
+  out.corner_uvs = std::move(output.corner_uvs);
+  if (cut) out.cut = std::move(faces.mesh);
+  return out;
+}
+
+std::vector<ChartReport> reports_of_input(const InputAtlas& input) {
+  std::vector<int> own(input.set.charts.size());
+  std::iota(own.begin(), own.end(), 0);
+  return chart_reports(input, input.set.charts, own);
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,28 @@
+// The certificate without which no result leaves the library, made on the values that are stored.
+#pragma once
+
+#include "atlas_refine/result.h"
+#include "cut/cut_atlas.h"
+#include "report/measure_atlas.h"
+
+namespace atlas_refine {
+
+/// An atlas as it will be stored, and what is true of it.
+struct CertifiedAtlas {
+  std::vector<Vec2> corner_uvs;
+  std::optional<CutMesh> cut;
+  Measures after;
+  std::vector<ChartReport> charts;
+  std::vector<PieceReport> pieces;  ///< only where the atlas was cut
+  std::vector<Chart> stored;        ///< the pieces in units of the texture, on their surfaces
+};
+
+/// Scales the pieces into the unit square, rounds their UVs as they will be stored, and tests just those values with exact
+/// predicates: every triangle positive, no borders crossing or touching, the gap kept, the seams those that were meant. Pure:
+/// the same arguments give the same answer. Throws RefineError(NotCertified).
+CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap& gap, const RefineOptions& options);
+
+/// Reports of the input's charts where nothing was done to them.
+std::vector<ChartReport> reports_of_input(const InputAtlas& input);
+
+}  // namespace atlas_refine

@@ -1,0 +1,52 @@
+// What happened in one call, step by step: timings, repairs, fallbacks, warnings, pictures. It judges nothing.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "atlas_refine/debug_sink.h"
+#include "atlas_refine/result.h"
+#include "geometry/chart.h"
+#include "support/monitor.h"
+
+namespace atlas_refine {
+
+/// A part of the whole call's progress.
+struct ProgressRange {
+  double from = 0;
+  double to = 1;
+
+  ProgressRange part(double begin, double end) const { return {from + begin * (to - from), from + end * (to - from)}; }
+};
+
+class Journal {
+ public:
+  Journal(Monitor& monitor, DebugSink* debug, double box_aspect) : monitor_(monitor), debug_(debug), box_aspect_(box_aspect) {}
+
+  void begin_stage(const std::string& stage, const ProgressRange& range);
+  void end_stage();
+
+  std::vector<StageTime> timings;
+  std::vector<std::string> repairs, fallbacks, warnings;
+  int iterations = 0;  ///< Newton iterations, all stages
+
+  bool draws() const { return debug_ != nullptr; }
+  void show(const AtlasSnapshot& picture) { debug_->receive(picture); }
+  /// Hands the charts to the debug sink, where there is one.
+  void show(const std::string& stage, const std::vector<Chart>& charts);
+
+ private:
+  Monitor& monitor_;
+  DebugSink* debug_;
+  double box_aspect_;
+  std::string stage_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// "chart 3", "charts 3, 5", or how many they are.
+std::string charts_named(const std::vector<int>& charts);
+/// printf of one number.
+std::string number_text(const char* format, double value);
+
+}  // namespace atlas_refine

@@ -1,0 +1,50 @@
+// What a road came to, before it is certified.
+#pragma once
+
+#include <optional>
+
+#include "atlas_refine/result.h"
+#include "cut/cut_atlas.h"
+#include "reduce/reduce.h"
+#include "report/journal.h"
+#include "report/measure_atlas.h"
+
+namespace atlas_refine {
+
+/// What all steps of one call share.
+struct Refinement {
+  const InputAtlas& input;
+  const RefineOptions& options;
+  Monitor& monitor;
+  Journal& journal;
+  int threads;
+};
+
+struct Solution {
+  Intervention intervention = Intervention::Moved;
+  CutAtlas atlas;  ///< pieces where they are to lie
+  Gap gap;         ///< that is kept
+  Ended ended = Ended::NotRun;
+  double price = 0;
+  std::vector<int> re_embedded;  ///< charts
+  std::optional<RectangleReport> rectangles;
+};
+
+inline Ended ended_of(ReduceStatus status) {
+  switch (status) {
+    case ReduceStatus::Converged:
+      return Ended::AtOptimum;
+    case ReduceStatus::Enough:
+      return Ended::Enough;
+    case ReduceStatus::TooDistorted:
+      return Ended::DistortionLimit;
+    case ReduceStatus::OutOfTime:
+      return Ended::OutOfIterations;
+    case ReduceStatus::Stalled:
+    case ReduceStatus::TooExpensive:
+      return Ended::Stalled;
+  }
+  return Ended::Stalled;
+}
+
+}  // namespace atlas_refine

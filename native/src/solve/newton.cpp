@@ -1,0 +1,125 @@
+// Assembly, factorisation and step limits.
+#include "solve/newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/collision.h"
+#include "solve/symmetric_dirichlet.h"
+#include "support/parallel.h"
+
+namespace atlas_refine {
+namespace {
+
+void add_triangle(const Triangle& v, const std::array<int, 3>& slots, double weight, const TriangleDerivatives& d,
+                  BlockSystem& system) {
+  for (int k = 0; k < 3; ++k) {
+    system.gradient[v[k]] += weight * d.gradient[k];
+    system.matrix.diagonal[v[k]] += weight * d.diagonal[k];
+    Mat2& block = system.matrix.off_diagonal[slots[k]];
+    if (v[k] < v[(k + 1) % 3])
+      block += weight * d.off_diagonal[k];
+    else
+      block += weight * d.off_diagonal[k].transpose();
+  }
+}
+
+void damp(BlockSystem& system, const std::vector<double>& masses, double damping) {
+  for (std::size_t v = 0; v < masses.size(); ++v) system.matrix.diagonal[v].diagonal().array() += damping * masses[v];
+}
+
+}  // namespace
+
+void BlockSystem::set_zero() {
+  matrix.set_zero();
+  gradient.assign(matrix.node_count(), Vec2::Zero());
+}
+
+std::vector<std::pair<int, int>> triangle_sides(const std::vector<Triangle>& triangles) {
+  std::vector<std::pair<int, int>> sides;
+  for (const Triangle& t : triangles) {
+    for (int k = 0; k < 3; ++k) sides.emplace_back(t[k], t[(k + 1) % 3]);
+  }
+  return sides;
+}
+
+TriangleSlots triangle_slots(const BlockLdlt& matrix, const std::vector<Triangle>& triangles) {
+  TriangleSlots slots;
+  for (const Triangle& t : triangles)
+    slots.push_back({matrix.slot(t[0], t[1]), matrix.slot(t[1], t[2]), matrix.slot(t[2], t[0])});
+  return slots;
+}
+
+double dirichlet_energy(const Objective& objective, const std::vector<Triangle>& triangles, const std::vector<Vec2>& x) {
+  double sum = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Triangle& v = triangles[t];
+    const double energy = symmetric_dirichlet(jacobian(objective.inverse_edges[t], x[v[0]], x[v[1]], x[v[2]]));
+    if (!std::isfinite(energy)) return std::numeric_limits<double>::infinity();
+    sum += objective.weight[t] * energy;
+  }
+  return sum;
+}
+
+std::vector<double> triangle_energies(const Objective& objective, const std::vector<Triangle>& triangles,
+                                      const std::vector<Vec2>& x) {
+  std::vector<double> energies;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Triangle& v = triangles[t];
+    energies.push_back(symmetric_dirichlet(jacobian(objective.inverse_edges[t], x[v[0]], x[v[1]], x[v[2]])));
+  }
+  return energies;
+}
+
+void add_dirichlet(const Objective& objective, const std::vector<Triangle>& triangles, const TriangleSlots& slots,
+                   const std::vector<Vec2>& x, int threads, BlockSystem& system) {
+  constexpr int kBlock = 4096;  // bounds the buffer
+  const int count = static_cast<int>(triangles.size());
+  std::vector<TriangleDerivatives> buffer(std::min(kBlock, count));
+  for (int begin = 0; begin < count; begin += kBlock) {
+    const int end = std::min(count, begin + kBlock);
+    parallel_ranges(end - begin, threads, kBlock / 4, [&](int from, int to) {
+      for (int k = from; k < to; ++k) {
+        const Triangle& v = triangles[begin + k];
+        buffer[k] = symmetric_dirichlet_derivatives(objective.inverse_edges[begin + k], x[v[0]], x[v[1]], x[v[2]]);
+      }
+    });
+    for (int t = begin; t < end; ++t) add_triangle(triangles[t], slots[t], objective.weight[t], buffer[t - begin], system);
+  }
+}
+
+std::optional<double> factor_damped(BlockSystem& system, const std::vector<double>& masses, const Damping& damping) {
+  double total = damping.value;
+  damp(system, masses, total);
+  for (double extra = total; !system.matrix.factor(); extra *= damping.growth) {
+    if (total + extra > damping.most) return std::nullopt;
+    damp(system, masses, extra);
+    total += extra;
+  }
+  return total;
+}
+
+std::vector<Vec2> newton_direction(const BlockSystem& system) {
+  std::vector<Vec2> step = system.gradient;
+  system.matrix.solve(step);
+  for (Vec2& s : step) s = -s;
+  return step;
+}
+
+double dot(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+  return sum;
+}
+
+double flip_free_fraction(const std::vector<Triangle>& triangles, const std::vector<Vec2>& x, const std::vector<Vec2>& step,
+                          double limit, double short_of) {
+  const auto moving = [&](int v) { return Moving{x[v], step[v]}; };
+  for (const Triangle& t : triangles) limit = std::min(limit, short_of * flip_time(moving(t[0]), moving(t[1]), moving(t[2])));
+  return limit;
+}
+
+double StepBounds::least() const { return of_piece.empty() ? 1 : *std::min_element(of_piece.begin(), of_piece.end()); }
+
+}  // namespace atlas_refine

@@ -1,0 +1,76 @@
+// Projected Newton on UV vertices, piece by piece of the method: assembly of E_d (eq. 9), direction, step limits, line search.
+// The deformation to the axes, embedding and the reduction under the bound all step with these.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "geometry/chart.h"
+#include "solve/block_ldlt.h"
+#include "solve/objective.h"
+
+namespace atlas_refine {
+
+/// Gradient and Hessian of one iteration, two unknowns a node.
+struct BlockSystem {
+  BlockLdlt matrix;
+  std::vector<Vec2> gradient;
+
+  void set_zero();
+};
+
+/// Where each triangle's sides (0,1), (1,2), (2,0) lie in the matrix.
+using TriangleSlots = std::vector<std::array<int, 3>>;
+
+/// The pairs of nodes that triangles couple, for BlockLdlt::analyse.
+std::vector<std::pair<int, int>> triangle_sides(const std::vector<Triangle>& triangles);
+TriangleSlots triangle_slots(const BlockLdlt& matrix, const std::vector<Triangle>& triangles);
+
+/// Sum of weight * energy; infinite with a flip.
+double dirichlet_energy(const Objective& objective, const std::vector<Triangle>& triangles, const std::vector<Vec2>& x);
+/// The terms of the sum, unweighted.
+std::vector<double> triangle_energies(const Objective& objective, const std::vector<Triangle>& triangles,
+                                      const std::vector<Vec2>& x);
+/// Adds the energy's gradient and projected Hessian. The sums run in triangle order whatever the number of threads.
+void add_dirichlet(const Objective& objective, const std::vector<Triangle>& triangles, const TriangleSlots& slots,
+                   const std::vector<Vec2>& x, int threads, BlockSystem& system);
+
+/// Levenberg damping: `value` times each node's mass is added to the diagonal, more by `growth` until the matrix can be factored.
+struct Damping {
+  double value;
+  double growth;
+  double most;
+};
+/// Factors the matrix; the damping that it took, or nothing where `most` was not enough.
+std::optional<double> factor_damped(BlockSystem& system, const std::vector<double>& masses, const Damping& damping);
+
+/// -H^-1 gradient. The matrix must have been factored.
+std::vector<Vec2> newton_direction(const BlockSystem& system);
+
+double dot(const std::vector<Vec2>& a, const std::vector<Vec2>& b);
+
+/// Largest part of `step`, at most `limit`, that stays `short_of` (a factor below 1) the first flip.
+double flip_free_fraction(const std::vector<Triangle>& triangles, const std::vector<Vec2>& x, const std::vector<Vec2>& step,
+                          double limit, double short_of);
+
+/// The part of a step that each piece may take, in [0, 1].
+struct StepBounds {
+  std::vector<double> of_piece;
+
+  double least() const;
+};
+
+/// Armijo: the largest of `limit`, limit / 2, limit / 4, ... at which `merit_at` is low enough, 0 where none is. `merit_at` is
+/// infinite where a state is not allowed; its last call is the accepted one.
+template <class MeritAt>
+double line_search(double limit, double merit, double slope, MeritAt&& merit_at) {
+  constexpr double kDecrease = 1e-4;
+  constexpr double kLeastFraction = 1e-9;
+  for (double fraction = limit; fraction > kLeastFraction; fraction *= 0.5) {
+    if (merit_at(fraction) <= merit + kDecrease * fraction * slope) return fraction;
+  }
+  return 0;
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,59 @@
+// Shapes from the surface or a reference, scaled by density; weights from areas and importance.
+#include "solve/objective.h"
+
+#include <cmath>
+
+#include "geometry/rest_triangle.h"
+
+namespace atlas_refine {
+namespace {
+
+double surface_area(const std::vector<Chart>& pieces) {
+  double area = 0;
+  for (const Chart& piece : pieces) area += piece.surface.area();
+  return area;
+}
+
+/// Factor on the lengths of each piece's shapes.
+std::vector<double> length_factors(const std::vector<Chart>& pieces, const std::vector<double>& density) {
+  if (density.empty()) return std::vector<double>(pieces.size(), 1);
+  double wanted = 0, area = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    wanted += density[p] * density[p] * pieces[p].surface.area();
+    area += pieces[p].surface.area();
+  }
+  std::vector<double> factors;
+  for (const double d : density) factors.push_back(d * std::sqrt(area / wanted));
+  return factors;
+}
+
+/// Of triangle t of piece p, at the surface's size.
+Mat2 wanted_shape(const std::vector<Chart>& pieces, const ObjectiveRequest& request, std::size_t p, std::size_t t) {
+  const Mat2& own = pieces[p].surface[t].inverse_edges;
+  if (request.reference_uvs.empty()) return own;
+  const std::vector<Vec2>& uvs = request.reference_uvs[p];
+  const Triangle& v = pieces[p].triangles[t];
+  const RestTriangle rest = rest_from_plane(uvs[v[0]], uvs[v[1]], uvs[v[2]], request.reference_scale[p]);
+  return rest.area > 0 ? rest.inverse_edges : own;
+}
+
+}  // namespace
+
+Objective make_objective(const std::vector<Chart>& pieces, const ObjectiveRequest& request) {
+  Objective out;
+  out.unit = std::sqrt(surface_area(pieces));
+  const std::vector<double> factors = length_factors(pieces, request.density);
+  double sum = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    for (std::size_t t = 0; t < pieces[p].triangles.size(); ++t) {
+      out.inverse_edges.push_back(out.unit / factors[p] * wanted_shape(pieces, request, p, t));
+      const double importance = request.importance.empty() ? 1 : request.importance[pieces[p].triangle_faces[t]];
+      out.weight.push_back(pieces[p].surface[t].area * importance);
+      sum += out.weight.back();
+    }
+  }
+  for (double& weight : out.weight) weight /= sum;
+  return out;
+}
+
+}  // namespace atlas_refine

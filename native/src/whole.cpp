@@ -1,0 +1,110 @@
+// Embed where charts overlap themselves, place, squeeze.
+#include "whole.h"
+
+#include "atlas_refine/error.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+#include "pack/place_charts.h"
+#include "reduce/goal.h"
+#include "reduce/squeeze.h"
+#include "repair/re_embed.h"
+
+namespace atlas_refine {
+namespace {
+
+// An automatic gap is given up for a smaller one where one more per cent of PE costs more than this per cent of E_d.
+constexpr double kDearestPrice = 3;
+constexpr double kRounding = 1 + 1e-6;  // storing single precision must not lose the bound
+
+double packing_efficiency(const std::vector<Chart>& charts, double aspect) {
+  return uv_area(charts) / box_of_aspect(uv_box(charts), aspect).area();
+}
+
+bool gap_kept(const std::vector<Chart>& charts, const Gap& gap, double aspect) {
+  return gap_between_charts(charts) >= kStartGap * gap.length(box_of_aspect(uv_box(charts), aspect).size());
+}
+
+/// Charts that overlap themselves, or hold polygons that do, are embedded anew.
+std::vector<int> embed_where_needed(const Refinement& run, std::vector<Chart>& charts) {
+  std::vector<int> embedded;
+  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+    run.monitor.report(static_cast<double>(c) / static_cast<double>(charts.size()));
+    if (certify_charts({charts[c]}).valid()) continue;
+    charts[c] = re_embed(charts[c], c, run.threads, run.monitor);
+    run.journal.repairs.push_back(charts_named({c}) + ": overlapped or touched itself, embedded anew");
+    embedded.push_back(c);
+  }
+  return embedded;
+}
+
+bool holds(const Refinement& run, const std::vector<Chart>& placed) {
+  const RefineOptions& options = run.options;
+  const bool allowed = !options.max_distortion || dirichlet_sums(placed).best_energy() <= *options.max_distortion;
+  return allowed && packing_efficiency(placed, options.box_aspect) >= kRounding * options.pe_bound;
+}
+
+/// The packer's layout and, where it is a valid start, the artist's: of a large atlas only the tighter one is tried.
+std::vector<std::vector<Chart>> starts_of(const Refinement& run, const std::vector<Chart>& own, bool own_is_valid,
+                                          const std::vector<Chart>& placed, const Gap& gap) {
+  constexpr std::size_t kLarge = 30000;
+  const double aspect = run.options.box_aspect;
+  if (!own_is_valid || !gap_kept(own, gap, aspect)) return {placed};
+  std::size_t triangles = 0;
+  for (const Chart& chart : own) triangles += chart.triangles.size();
+  if (triangles <= kLarge) return {placed, own};
+  return {packing_efficiency(own, aspect) > packing_efficiency(placed, aspect) ? own : placed};
+}
+
+std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts) {
+  std::vector<std::vector<Vec2>> out;
+  for (const Chart& chart : charts) out.push_back(chart.uvs);
+  return out;
+}
+
+void squeeze_into(const Refinement& run, const std::vector<std::vector<Chart>>& starts, const std::vector<Gap>& gaps,
+                  Solution& out) {
+  const SqueezeOptions options{.pe_bound = run.options.pe_bound,
+                               .box_aspect = run.options.box_aspect,
+                               .gaps = gaps,
+                               .max_distortion = run.options.max_distortion.value_or(0),
+                               .max_price = kDearestPrice,
+                               .threads = run.threads};
+  const Objective objective = goal_of(run.input.set.charts, out.atlas, run.options);
+  Squeezed best = squeeze(starts, objective, options, run.monitor);
+  run.journal.iterations += best.iterations;
+  out.intervention = Intervention::Squeezed;
+  out.atlas = with_uvs(std::move(out.atlas), best.outcome.uvs);
+  out.gap = best.gap;
+  out.ended = ended_of(best.outcome.status);
+  out.price = best.outcome.price;
+  if (!run.options.gap && !best.gap_note.empty())
+    run.journal.warnings.push_back("the gap was reduced from " + number_text("%g", Gap{}.value) + " to " +
+                                   number_text("%g", best.gap.value) + " of the box diagonal: " + best.gap_note);
+}
+
+}  // namespace
+
+Solution refine_whole(const Refinement& run, const ProgressRange& range) {
+  const RefineOptions& options = run.options;
+  std::vector<Chart> charts = run.input.set.charts;
+  run.journal.begin_stage("embed", range.part(0, 0.2));
+  Solution out{.re_embedded = embed_where_needed(run, charts)};
+  const bool own_is_valid = out.re_embedded.empty() && certify_charts(charts).valid();
+
+  run.journal.begin_stage("pack", range.part(0.2, 0.4));
+  const bool scaled = set_density(charts, wanted_density(run.input.set.charts, options.density), options.density);
+  const std::vector<Gap> gaps =
+      options.gap ? std::vector<Gap>{*options.gap} : automatic_gaps(charts, options.pe_bound, options.box_aspect);
+  const PlaceOptions place{gaps.front(), options.box_aspect, options.pe_bound, options.seed, run.threads};
+  const std::vector<Chart> placed = place_charts(charts, place, run.monitor);
+  run.journal.show("placed", placed);
+  out.atlas = with_uvs(whole_atlas(charts), uvs_of(placed));
+  out.gap = gaps.front();
+  if (holds(run, placed) && !options.relax) return out;
+
+  run.journal.begin_stage("squeeze", range.part(0.4, 1));
+  squeeze_into(run, starts_of(run, charts, own_is_valid && !scaled, placed, gaps.front()), gaps, out);
+  return out;
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,89 @@
+// What pieces are to become: one density or each its own, reference shapes, importance that only compares.
+#include "reduce/goal.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <numeric>
+
+#include "charts.h"
+#include "shapes.h"
+
+namespace atlas_refine {
+namespace {
+
+using testing::charts_of;
+
+std::vector<Chart> of_two_scales() {
+  const shapes::Polygon star = shapes::star();
+  Atlas large = shapes::mesh(star, 0.1, 0);
+  for (Vec2& uv : large.corner_uvs) uv = 3 * uv + Vec2(4, 0);
+  return charts_of(shapes::combine({shapes::mesh(star, 0.1, 0), large}));
+}
+
+double energy(const Objective& objective, const std::vector<Chart>& charts) {
+  double sum = 0;
+  std::size_t t = 0;
+  for (const Chart& chart : charts) {
+    for (const Triangle& v : chart.triangles) {
+      const auto at = [&](int k) -> Vec2 { return chart.uvs[v[k]] / objective.unit; };
+      Mat2 edges;
+      edges << at(1) - at(0), at(2) - at(0);
+      const Mat2 j = edges * objective.inverse_edges[t];
+      sum += objective.weight[t++] * 0.25 * (j.squaredNorm() + j.inverse().squaredNorm());
+    }
+  }
+  return sum;
+}
+
+TEST(Goal, EqualScalesTheUvs) {
+  std::vector<Chart> charts = of_two_scales();
+  const auto wanted = wanted_density(charts, Density::Equal);
+  EXPECT_TRUE(set_density(charts, wanted, Density::Equal));
+  EXPECT_NEAR(uv_area(charts[0]), uv_area(charts[1]), 1e-9);
+  for (const Chart& chart : charts) EXPECT_NEAR(dirichlet_sums(chart).best_scale(), 1, 1e-12);
+  EXPECT_FALSE(set_density(charts, wanted, Density::Equal));
+}
+
+TEST(Goal, KeepWantsEachChartsOwnDensityWhateverBecameOfIt) {
+  const std::vector<Chart> before = of_two_scales();
+  const auto wanted = wanted_density(before, Density::Keep);
+  EXPECT_NEAR(wanted[1] / wanted[0], 3, 1e-9);
+  std::vector<Chart> charts = before;
+  EXPECT_FALSE(set_density(charts, wanted, Density::Keep));
+  for (Vec2& uv : charts[0].uvs) uv *= 100;  // embedded anew, in model units
+  EXPECT_TRUE(set_density(charts, wanted, Density::Keep));
+  EXPECT_NEAR(uv_area(charts[1]) / uv_area(charts[0]), 9, 1e-9);
+  EXPECT_NEAR(uv_area(charts), before[0].surface.area() + before[1].surface.area(), 1e-9);
+  const Objective objective = goal_of(before, whole_atlas(charts), {.density = Density::Keep});
+  EXPECT_NEAR(energy(objective, charts), 1, 1e-9);
+}
+
+TEST(Goal, TheInputAsReferenceLeavesTheDensityToItsOption) {
+  std::vector<Chart> charts = of_two_scales();
+  for (Vec2& uv : charts[0].uvs) uv.x() *= 1.5;
+  const std::vector<Chart> input = charts;
+  for (const Density density : {Density::Equal, Density::Keep}) {
+    charts = input;
+    const auto wanted = wanted_density(input, density);
+    set_density(charts, wanted, Density::Keep);  // to the wanted areas
+    const Objective objective = goal_of(input, whole_atlas(charts), {.density = density, .reference = Reference::Input});
+    EXPECT_NEAR(energy(objective, charts), 1, 1e-9);
+  }
+}
+
+TEST(Goal, UniformImportanceChangesNothing) {
+  const std::vector<Chart> charts = of_two_scales();
+  const Objective plain = goal_of(charts, whole_atlas(charts), {});
+  EXPECT_NEAR(std::accumulate(plain.weight.begin(), plain.weight.end(), 0.0), 1, 1e-12);
+  for (const double weight : {1e-4, 1.0, 1e6}) {
+    RefineOptions options;
+    options.importance.assign(10000, weight);
+    const Objective objective = goal_of(charts, whole_atlas(charts), options);
+    for (std::size_t t = 0; t < plain.weight.size(); ++t)
+      EXPECT_NEAR(objective.weight[t], plain.weight[t], 1e-12 * plain.weight[t]);
+  }
+}
+
+}  // namespace
+}  // namespace atlas_refine
