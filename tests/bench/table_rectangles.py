@@ -42,14 +42,13 @@ def only_shown(value, _, form, at_least=False):
     return shown(value, form)
 
 
-def rectangle_lines(rows, required):
-    """Every goal of results that cut; `required` names the folders that targets are about."""
+def rectangle_lines(rows):
+    """Every goal of results that cut."""
     out = []
     for goal in dict.fromkeys(row.goal for row in rows if row.cuts):
-        at_goal = [row for row in rows if row.goal == goal and row.folder in required]
-        if at_goal:
-            folders = "/".join(dict.fromkeys(row.folder for row in at_goal))
-            out += [f"cuts at {goal}, {folders}", *goal_lines(at_goal)]
+        at_goal = [row for row in rows if row.goal == goal]
+        folders = "/".join(dict.fromkeys(row.folder for row in at_goal))
+        out += [f"cuts at {goal}, {folders}", *goal_lines(at_goal)]
     return out
 
 
@@ -70,7 +69,7 @@ def goal_lines(rows):
         f"  PE mean {judge(mean([r.pe for r in done]), PE_MEAN, '.1%', at_least=True)}",
         f"  files with a safety net: {len(nets)} of {len(rows)}: "
         + judge(len(nets) / len(rows), NETS_MOST, ".1%")
-        + "".join(f"\n    {r.folder}/{r.file}: {r.nets}" for r in nets),
+        + "".join(f"\n    {r.folder}/{r.file}: {'; '.join(r.fallbacks)}" for r in nets),
         *time_and_memory_lines(rows),
     ]
 
