@@ -234,17 +234,22 @@ def count_triangles(mesh):
     return sum(len(tokens) - 3 for tokens in lines)
 
 
+def helper_arguments(row, output, goal, report):
+    width = repr(check_atlas.aspect_of(goal.aspect) or 1.0)
+    return [output, width, *(["newton", "only"] if row.cuts else [repr(report["gap"]["value"]), report["gap"]["unit"]])]
+
+
 def fill_from_helper(helper, mesh, results):
-    """The charts' own optimum, the lesser of that found from the input and from the result, and the stock Newton iteration."""
-    command = [helper, mesh]
-    for row, output, report in results:
-        command += [output, "newton", "only"] if row.cuts else [output, repr(report["gap"]["value"]), report["gap"]["unit"]]
+    """The charts' own optimum, the lesser of that found from the input and from the result, and the stock Newton iteration.
+
+    `results`: row, file, goal and report of each."""
+    command = [helper, mesh, *(word for result in results for word in helper_arguments(*result))]
     try:
         run = subprocess.run(command, capture_output=True, timeout=HELPER_LIMIT_S, check=True)
         answer = json.loads(run.stdout)
     except (subprocess.SubprocessError, ValueError) as error:
         answer = {"input": {}, "results": [{"error": f"optimum: {error}"} for _ in results]}
-    for (row, _, _), result in zip(results, answer["results"], strict=True):
+    for (row, *_), result in zip(results, answer["results"], strict=True):
         optima = [part["optimum"] for part in (answer["input"], result) if part.get("optimum") is not None]
         row.optimum = math.nan if row.cuts else min(optima, default=math.nan)
         row.newton_seconds = number(result.get("newton_seconds"))
@@ -269,9 +274,9 @@ def measure_file(build, folder, mesh, goals):
     """One row per goal."""
     with tempfile.TemporaryDirectory(prefix="atlas-refine-bench-") as scratch:
         outputs = [Path(scratch) / f"{k}.obj" for k in range(len(goals))]
-        done = [measure_run(build / "atlas-refine", folder, mesh, *at) for at in zip(outputs, goals, strict=True)]
-        rows = [row for row, _ in done]
-        results = [(row, output, report) for (row, report), output in zip(done, outputs, strict=True) if report]
+        runs = [(*measure_run(build / "atlas-refine", folder, mesh, o, g), o, g) for o, g in zip(outputs, goals, strict=True)]
+        rows = [row for row, *_ in runs]
+        results = [(row, output, goal, report) for row, report, output, goal in runs if report]
         if results:
             fill_from_helper(build / "atlas_refine_bench", mesh, results)
         return rows

@@ -48,12 +48,11 @@ COLUMNS = (
     ("MiB", lambda r: text(r.peak_bytes / 2**20, ".0f"), ">5"),
     ("reason", lambda r: r.reason, ""),
 )
-NOTES = """emb: charts that overlapped themselves and were embedded anew. nets: how often something else was done than was tried first. BL+ %: seams added /
-seams before.
-dE %: (E_d - E_d in) / E_d in. extra: E_d over the charts' own optimum (the engine without a bound), of results without a cut.
-gap %, within: per cent of the box diagonal, guaranteed between charts, measured within. s: inside refine(), one thread. cpu s: processor
-time of the whole process, files included. xNewton: the lesser of both over one Newton iteration with stock Eigen on the same charts.
-MiB: peak memory of the process."""
+NOTES = """emb: charts that overlapped themselves and were embedded anew. nets: how often something else was done than was tried first.
+BL+ %: seams added / seams before. dE %: (E_d - E_d in) / E_d in. extra: E_d over the charts' own optimum (the engine without a bound), of
+results without a cut. gap %, within: per cent of the box diagonal, guaranteed between charts, measured within. s: inside refine(), one
+thread. cpu s: processor time of the whole process, files included. xNewton: the lesser of both over one Newton iteration with stock Eigen
+on the same charts. MiB: peak memory of the process."""
 
 
 def header():

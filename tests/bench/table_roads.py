@@ -34,10 +34,21 @@ def road_line(folder, name, rows, lower):
     return f"  {folder:22}{len(rows):>6}  {name:12}{numbers}  {lower} of {len(rows)}"
 
 
+def of_those_that_are_cut(pairs):
+    """Where seams were paid for, the distortion must be no more than without them."""
+    cut = [pair for pair in pairs if pair[1].how == "cut"]
+    if not cut:
+        return []
+    without, with_cuts = (statistics.fmean(row.e_d for row in rows) for rows in zip(*cut, strict=True))
+    judged = "yes" if with_cuts <= without else "NO"
+    return [f"    of the {len(cut)} that are cut: E_d {with_cuts:.4f} (at most the squeeze's {without:.4f}: {judged})"]
+
+
 def folder_lines(folder, pairs):
     lower = [sum(one.e_d < other.e_d - EQUAL for one, other in ways) for ways in (pairs, [pair[::-1] for pair in pairs])]
     squeezed, cut = zip(*pairs, strict=True)
-    return [road_line(folder, "squeeze", squeezed, lower[0]), road_line("", "rectangles", cut, lower[1])]
+    lines = [road_line(folder, "squeeze", squeezed, lower[0]), road_line("", "rectangles", cut, lower[1])]
+    return lines + of_those_that_are_cut(pairs)
 
 
 def road_lines(rows):

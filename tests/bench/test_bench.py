@@ -79,7 +79,6 @@ def row(**changed):
         ({"e_d": 1.06}, 1),
         ({"bl": 1.9}, 1),
         ({"bl": 3.0}, 2),
-        ({"pe": 0.81}, 1),
         ({"fallbacks": ["chart 0: could not be deformed; embedded onto a rectangle"]}, 1),
         ({"triangles": 21000, "seconds": 2.1, "cpu_seconds": 2.2}, 1),
         ({"triangles": 60000, "seconds": 7.0, "cpu_seconds": 7.0}, 0),
@@ -155,10 +154,20 @@ def test_two_roads_side_by_side():
     rows += two_roads("c", {"e_d": 1.01}, {"e_d": 1.02, "pe": 0.85}) + two_roads("equal", {}, {})
     rows += two_roads("fails", {"e_d": 9.0, "valid": False}, {}) + two_roads("distorted", {"e_d_in": 3.0}, {"e_d_in": 3.0})
     title, _, squeeze, rectangles = road_lines(rows)
+    assert not any("that are cut" in line for line in road_lines(rows))
     assert title.startswith("two roads at 0.80 free: 4 of 6 files")
     assert squeeze.split() == "disk_deep 4 squeeze 1.0500 1.0300 0.830 +0.0% 1.33 2 of 4".split()
     assert rectangles.split() == "4 rectangles 1.0500 1.0300 0.835 +50.0% 1.10 1 of 4".split()
     assert road_lines([r for r in rows if r.cuts]) == []
+
+
+@pytest.mark.parametrize(("e_d", "judged"), [(1.03, "yes"), (1.05, "NO")])
+def test_files_that_are_cut_are_held_against_the_squeeze(e_d, judged):
+    """The file that was not cut after all does not count."""
+    rows = two_roads("a", {"e_d": 1.04}, {"how": "cut", "e_d": e_d}) + two_roads(
+        "b", {"e_d": 1.5}, {"how": "squeezed", "e_d": 1.0}
+    )
+    assert road_lines(rows)[-1] == f"    of the 1 that are cut: E_d {e_d:.4f} (at most the squeeze's 1.0400: {judged})"
 
 
 def test_two_roads_of_several_folders_and_bounds():
