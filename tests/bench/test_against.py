@@ -1,11 +1,13 @@
 """The comparison of two programs: which program runs when and with what, how a commit is built, what its verdicts say."""
 
+import argparse
 import json
 import math
 import subprocess
 import sys
 
 import against
+import bench
 import pytest
 import trees
 from measure_file import Goal, Row
@@ -58,6 +60,25 @@ def test_both_programs_run_in_turn_with_their_own_options(tmp_path):
     assert pairs[0].difference == pytest.approx(0.25)
     assert pairs[0].worse
     assert pairs[0].ratio > 0
+
+
+@pytest.mark.parametrize(("stretch", "wrong"), [(1.0, 0), (0.5, 1)])
+def test_a_run_counts_what_is_worse_and_leaves_its_table(tmp_path, monkeypatch, capsys, stretch, wrong):
+    (tmp_path / "square.obj").write_text(SQUARE)
+    builds = {}
+    for name, by in (("old", 1.0), ("new", stretch)):
+        builds[name] = tmp_path / name
+        builds[name].mkdir()
+        program(builds[name], trees.PROGRAM, by)
+    monkeypatch.setattr(trees, "build_commit", lambda *_: builds["old"])
+    arguments = argparse.Namespace(
+        against="COMMIT", build=builds["new"], cache=tmp_path, old_options=(), new_options=(), jobs=1, bounds=[Goal(0.8)],
+        seams=["none"], found={"mine": [tmp_path / "square.obj"]},
+    )  # fmt: skip
+    assert bench.run_against(arguments, tmp_path) == wrong
+    assert "mine: ok 1 -> 1 of 1" in capsys.readouterr().out
+    assert json.loads((tmp_path / "against.json").read_text())[0]["new"]["e_d_checked"] == pytest.approx(1 + wrong / 4)
+    assert (tmp_path / "against.md").read_text().startswith("This tree against COMMIT")
 
 
 def row(folder="disk", file="a", goal="0.80 free", **changed):
