@@ -1,9 +1,9 @@
 // What a refined atlas is held against: its charts' own optimum of E_d, and the cost of one Newton iteration with stock Eigen.
 //
-//   atlas_refine_bench IN.obj [RESULT.obj GAP box_diagonal|long_side]... [RESULT.obj newton only]...
+//   atlas_refine_bench IN.obj [RESULT.obj WIDTH GAP box_diagonal|long_side]... [RESULT.obj WIDTH newton only]...
 //
-// GAP is the gap that the result keeps, as its report has it; of a result that was cut only the Newton iteration is timed. Prints
-// one line of JSON.
+// WIDTH is width / height of the texture that [0, 1]^2 of the result is. GAP is the gap that the result keeps, as its report has
+// it; of a result that was cut only the Newton iteration is timed. Prints one line of JSON.
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
@@ -45,10 +45,13 @@ struct Charts {
   std::vector<Chart> charts;
   std::vector<double> scales;  // that were applied
 
-  explicit Charts(const std::string& path) {
+  explicit Charts(const std::string& path, double texture_width = 1) {
     const cli::ObjFile file = cli::ObjFile::read(path);
     ChartSet set = split_charts(file.atlas());
     require_no_flips(file.atlas(), set);
+    for (Chart& chart : set.charts) {
+      for (Vec2& uv : chart.uvs) uv.x() *= texture_width;
+    }
     file_box = uv_box(set.charts).size();
     charts = std::move(set.charts);
     for (const Chart& chart : charts) scales.push_back(dirichlet_sums(chart).best_scale());
@@ -152,8 +155,8 @@ Json attempt(const std::function<Json()>& work) {
   }
 }
 
-Json compare(const std::string& path, const std::optional<Gap>& gap) {
-  const Charts result(path);
+Json compare(const std::string& path, double texture_width, const std::optional<Gap>& gap) {
+  const Charts result(path, texture_width);
   Json out = stock_newton(result.charts);
   if (gap) out["optimum"] = optimum_from_result(result, *gap);
   return out;
@@ -170,16 +173,16 @@ std::optional<Gap> gap_of(const std::string& value, const std::string& unit) {
 
 int main(int argc, char** argv) {
   using namespace atlas_refine;
-  if (argc < 2 || (argc - 2) % 3 != 0) {
-    std::fputs("usage: atlas_refine_bench IN.obj [RESULT.obj GAP box_diagonal|long_side | RESULT.obj newton only]...\n", stderr);
+  if (argc < 2 || (argc - 2) % 4 != 0) {
+    std::fputs("usage: atlas_refine_bench IN.obj [RESULT.obj WIDTH (GAP box_diagonal|long_side | newton only)]...\n", stderr);
     return 2;
   }
   bool any_gap = argc == 2;
   Json results = Json::array();
-  for (int i = 2; i < argc; i += 3) {
-    const std::optional<Gap> gap = gap_of(argv[i + 1], argv[i + 2]);
+  for (int i = 2; i < argc; i += 4) {
+    const std::optional<Gap> gap = gap_of(argv[i + 2], argv[i + 3]);
     any_gap = any_gap || gap;
-    results.push_back(attempt([&] { return compare(argv[i], gap); }));
+    results.push_back(attempt([&] { return compare(argv[i], std::atof(argv[i + 1]), gap); }));
   }
   Json out;
   out["input"] = any_gap ? attempt([&] { return Json{{"optimum", optimum_from_input(Charts(argv[1]))}}; }) : Json::object();

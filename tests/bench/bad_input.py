@@ -69,7 +69,7 @@ CASES = (
     cut("zero candidates", "--candidates", "0"),
     cut("half a candidate", "--candidates", "0.5"),
     Case("sigma without rectangles", 2, options=("--sigma", "0.004")),
-    Case("until-bound without rectangles", 2, options=("--until-bound",)),
+    Case("until-input without rectangles", 2, options=("--until-input",)),
     Case("unknown reference", 2, options=("--reference", "uv")),
     *weighted("no file", None),
     *weighted("too few", ""),

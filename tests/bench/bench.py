@@ -4,51 +4,40 @@
 Prints a row for each file and bound as soon as it is known, then summaries; writes bench.json and bench.md. A file that fails is a
 row with the program's own reason. Exit code 0 where every row is ok (or nothing of the asked section went wrong), else 1.
 
-Meshes: the folder named by ATLAS_REFINE_MESHES, else what ../shared/data/unpack.sh unpacks.
+--against COMMIT: that commit is built beside this tree, both programs run one after the other on every file, and what differs is
+the table (against.json, against.md); exit code 1 where a file is no longer valid and at its bound, or has more E_d.
+
+Meshes: --meshes OBJ files or folders of them; else the folder named by ATLAS_REFINE_MESHES, else what ../shared/data/unpack.sh unpacks.
 """
 
 import argparse
 import concurrent.futures
 import fnmatch
 import json
-import os
-import subprocess
+import shlex
 import sys
+import tempfile
 from dataclasses import replace
 from pathlib import Path
 
+import against
 import studies
 import table
+import trees
 from bad_input import bad_input_lines
+from check_atlas import aspect_of
 from measure_file import Goal, Row, count_triangles, measure_file, outputs_differ
+from meshes import FOLDERS, REQUIRED_FOLDERS, NoMeshesError, folder_meshes, mesh_root, own_meshes
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = {
-    "disk": "disk",
-    "disk_deep": "disk_deep",
-    "atlas-clean": "uv/atlas-clean",
-    "atlas-nondisk-charts": "uv/atlas-nondisk-charts",
-}
-REQUIRED_FOLDERS = list(FOLDERS)[:3]
 GOALS = [Goal(0.80), Goal(0.90), Goal(0.80, "square"), Goal(0.85), Goal(0.95)]
 GOALS_OF_CUTS = {"": [Goal(0.80)], "disk_deep": [Goal(0.85), Goal(0.90), Goal(0.80, "square")]}  # for every folder; for one
 QUICK_TRIANGLES = 6000
 
 
-def mesh_root():
-    named = os.environ.get("ATLAS_REFINE_MESHES")
-    unpack = ROOT.parent / "shared" / "data" / "unpack.sh"
-    if not named and not unpack.exists():
-        sys.exit(f"bench: no meshes: ATLAS_REFINE_MESHES is not set, and there is no {unpack}")
-    if not named:
-        named = subprocess.run(["bash", unpack], capture_output=True, text=True, check=True).stdout.split("\n")[-2]
-    if not (Path(named) / "disk").is_dir():
-        sys.exit(f"bench: {named} holds no disk/")
-    return Path(named)
-
-
 def goal(text):
     bound, _, aspect = text.partition(":")
+    aspect_of(aspect or "free")
     return Goal(float(bound), aspect or "free")
 
 
@@ -61,14 +50,24 @@ def goals_of(arguments, folder):
     return sorted(goals, key=lambda goal: (order.index((goal.bound, goal.aspect)), goal.cuts))
 
 
-def meshes(arguments, folders):
-    """(folder, path), small files first within each folder."""
-    root = mesh_root()
-    for folder in folders:
-        found = [path for path in (root / FOLDERS[folder]).glob("*.obj") if fnmatch.fnmatch(path.stem, arguments.files)]
-        for path in sorted(found, key=lambda path: (path.stat().st_size, path.name)):
-            if not arguments.quick or count_triangles(path) <= QUICK_TRIANGLES:
-                yield folder, path
+def selected_meshes(arguments):
+    """{folder: its files}, small files first."""
+    if arguments.meshes:
+        found = own_meshes(arguments.meshes)
+    else:
+        folders = FOLDERS if arguments.study else arguments.folders or FOLDERS
+        found = folder_meshes(mesh_root(ROOT.parent / "shared"), folders)
+    for folder, paths in found.items():
+        kept = [path for path in paths if fnmatch.fnmatch(path.stem, arguments.files)]
+        kept = [path for path in kept if not arguments.quick or count_triangles(path) <= QUICK_TRIANGLES]
+        found[folder] = sorted(kept, key=lambda path: (path.stat().st_size, path.name))
+    if not any(found.values()):
+        raise NoMeshesError("none of those that are there is asked for")
+    return found
+
+
+def each_mesh(arguments, folders=None):
+    return [(folder, path) for folder in folders or arguments.found for path in arguments.found[folder]]
 
 
 def guarded(work, rows_of_failure):
@@ -78,32 +77,56 @@ def guarded(work, rows_of_failure):
         return rows_of_failure(f"bench: {type(error).__name__}: {error}")
 
 
-def measure_guarded(build, folder, path, goals):
-    def failed(reason):
-        return [Row(folder, path.stem, goal.name, goal.seams, count_triangles(path), reason=reason) for goal in goals]
+def failed_rows(folder, path, goals, reason):
+    return [Row(folder, path.stem, goal.name, goal.seams, count_triangles(path), reason=reason) for goal in goals]
 
-    return guarded(lambda: measure_file(build, folder, path, goals), failed)
+
+def measure_guarded(build, folder, path, goals):
+    return guarded(lambda: measure_file(build, folder, path, goals), lambda why: failed_rows(folder, path, goals, why))
+
+
+def compare_guarded(programs, folder, path, goals):
+    def failed(reason):
+        return [against.Pair(row, row) for row in failed_rows(folder, path, goals, reason)]
+
+    return guarded(lambda: against.compare_file(programs, folder, path, goals), failed)
+
+
+def run_all(arguments, work, subject, line, file):
+    """`work` for every file; each result is printed as soon as it is known, and all so far are in the JSON `file`."""
+    results = []
+    with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
+        tasks = [pool.submit(work, subject, f, path, goals_of(arguments, f)) for f, path in each_mesh(arguments)]
+        for task in tasks:
+            for result in task.result():
+                results.append(result)
+                print(line(result), flush=True)
+            file.write_text(json.dumps([result.as_json() for result in results], indent=1))
+    return results
 
 
 def run_table(arguments, out):
-    rows = []
     print(table.header(), flush=True)
-    with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
-        tasks = [
-            pool.submit(measure_guarded, arguments.build, folder, path, goals_of(arguments, folder))
-            for folder, path in meshes(arguments, arguments.folders)
-        ]
-        for task in tasks:
-            for row in task.result():
-                rows.append(row)
-                print(table.line(row), flush=True)
-            (out / "bench.json").write_text(json.dumps([row.as_json() for row in rows], indent=1))
-    order = [goal.name for folder in FOLDERS for goal in goals_of(arguments, folder)]
+    rows = run_all(arguments, measure_guarded, arguments.build, table.line, out / "bench.json")
+    order = [goal.name for folder in arguments.found for goal in goals_of(arguments, folder)]
     rows.sort(key=lambda row: order.index(row.goal))
     lines = table.summary(rows)
     (out / "bench.md").write_text(table.markdown(rows, lines))
     print("\n" + table.NOTES + "\n\n" + "\n".join(lines))
     return sum(not row.ok for row in rows)
+
+
+def run_against(arguments, out):
+    old = trees.build_commit(arguments.against, ROOT, arguments.cache)
+    programs = against.Programs(
+        *(build / trees.PROGRAM for build in (old, arguments.build)), arguments.old_options, arguments.new_options
+    )
+    print(against.header(), flush=True)
+    pairs = run_all(arguments, compare_guarded, programs, against.line, out / "against.json")
+    lines = against.summary(pairs)
+    (out / "against.md").write_text(against.markdown(f"This tree against {arguments.against}", pairs, lines))
+    print("\n" + against.NOTES + "\n\n" + "\n".join(lines))
+    return sum(pair.lost or pair.worse for pair in pairs)
 
 
 def run_determinism(arguments):
@@ -113,7 +136,7 @@ def run_determinism(arguments):
 
 def determinism_at(at, arguments):
     wrong, count, longest = 0, 0, (0.0, "")
-    for folder, path in meshes(arguments, [f for f in arguments.folders if f in REQUIRED_FOLDERS]):
+    for folder, path in each_mesh(arguments, [f for f in arguments.found if arguments.meshes or f in REQUIRED_FOLDERS]):
         difference, seconds = guarded(lambda path=path: outputs_differ(arguments.build, path, at), lambda why: (why, [0.0]))
         count, wrong = count + 1, wrong + bool(difference)
         longest = max(longest, (seconds[-1], f"{folder}/{path.stem}"))
@@ -132,34 +155,61 @@ def run_bad_input(arguments):
     return wrong
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--folders", nargs="+", choices=FOLDERS, default=list(FOLDERS))
+def options(text):
+    return tuple(shlex.split(text))
+
+
+def parsed():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], epilog=__doc__.split("\n\n")[-1])
+    parser.add_argument("--meshes", nargs="+", metavar="PATH", help="own OBJ files, or folders that are searched for them")
+    parser.add_argument("--folders", nargs="+", choices=FOLDERS, help="of the test meshes [all]")
     parser.add_argument("--bounds", nargs="+", type=goal, help="0.8, 0.8:square, 0.8:16:9, ... [what is asked of the folder]")
     parser.add_argument("--seams", nargs="+", choices=["none", "rectangles"], default=["none", "rectangles"])
     parser.add_argument("--files", default="*", help="pattern of file names, without .obj")
     parser.add_argument("--jobs", type=int, default=1, help="files at a time; timings are honest only with 1")
     parser.add_argument("--quick", action="store_true", help=f"only files of at most {QUICK_TRIANGLES} triangles")
+    parser.add_argument("--against", metavar="COMMIT", help="instead: this tree compared with a commit [at 0.8, both roads]")
+    parser.add_argument(
+        "--old-options", type=options, default=(), help="further options of the commit's program, as --old-options=..."
+    )
+    parser.add_argument("--new-options", type=options, default=(), help="further options of this tree's program")
     parser.add_argument("--determinism", action="store_true", help="instead: the same bits from 2 runs and from 1 and 2 threads")
     parser.add_argument("--bad-input", action="store_true", help="instead: exit codes and messages of bad input")
     parser.add_argument("--study", choices=studies.NAMES, help="instead: one of the paper's studies, its figures beside ours")
-    parser.add_argument("--build", type=Path, default=ROOT / "build")
+    parser.add_argument("--build", type=Path, help="a build folder to take as it is, instead of building this tree")
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "bench")
+    parser.add_argument(
+        "--cache", type=Path, default=Path(tempfile.gettempdir()) / "atlas-refine", help="where commits are built"
+    )
     arguments = parser.parse_args()
-    arguments.build = arguments.build.resolve()
-    for name in ("atlas-refine", "atlas_refine_bench"):
-        if not (arguments.build / name).is_file():
-            sys.exit(f"bench: {arguments.build / name} is not built; run ./dev build")
+    if arguments.meshes and (arguments.folders or arguments.study):
+        parser.error("--meshes: not with --folders or --study, which are about the test meshes")
+    if arguments.against and not arguments.bounds:
+        arguments.bounds = [Goal(0.80)]
+    return arguments
+
+
+def run_asked(arguments):
+    """The section that was asked for; how many of its lines went wrong."""
     if arguments.bad_input:
-        return 1 if run_bad_input(arguments) else 0
+        return run_bad_input(arguments)
     if arguments.determinism:
-        return 1 if run_determinism(arguments) else 0
+        return run_determinism(arguments)
     arguments.out.mkdir(parents=True, exist_ok=True)
     if arguments.study:
-        return (
-            1 if studies.run_study(arguments.study, arguments, lambda folder: (p for _, p in meshes(arguments, [folder]))) else 0
-        )
-    return 1 if run_table(arguments, arguments.out) else 0
+        return studies.run_study(arguments.study, arguments, arguments.found.get)
+    return (run_against if arguments.against else run_table)(arguments, arguments.out)
+
+
+def main():
+    arguments = parsed()
+    try:
+        arguments.found = {} if arguments.bad_input else selected_meshes(arguments)
+        arguments.build = arguments.build.resolve() if arguments.build else trees.build_own(ROOT)
+        trees.require_built(arguments.build, trees.PROGRAM, trees.HELPER)
+        return 1 if run_asked(arguments) else 0
+    except (NoMeshesError, trees.TreeError) as why:
+        sys.exit(f"bench: {why}")
 
 
 if __name__ == "__main__":

@@ -20,10 +20,10 @@ E_D_TOLERANCE = 0.01  # triangles that are slivers in space are counted or not
 
 @dataclass(frozen=True)
 class Goal:
-    """A bound, the shape of the box it is measured in, where seams may come from, and further options of the program."""
+    """A bound, the shape of the texture it is measured in, where seams may come from, and further options of the program."""
 
     bound: float
-    aspect: str = "free"
+    aspect: str = "free"  # or "square", "W:H"
     seams: str = "none"
     options: tuple = ()
 
@@ -60,12 +60,13 @@ class Row:
     added_seams: int | None = None  # edges; with cuts not counted
     bl_in: float = math.nan
     bl: float = math.nan
-    nets: int = 0  # charts that Tutte's embedding onto a rectangle saved, and extra corners of each chart
+    fallbacks: list = field(default_factory=list)  # safety nets: what was tried first and what was done instead
     re_embedded: int = 0  # charts that overlapped themselves
     pe_in: float = math.nan
     pe: float = math.nan
     e_d_in: float = math.nan
     e_d: float = math.nan
+    e_d_checked: float = math.nan  # by the checker: of polygons the triangulation that has least
     e_2: float = math.nan
     optimum: float = math.nan  # E_d of the charts under the engine without a bound
     stretch_99: float = math.nan
@@ -88,6 +89,10 @@ class Row:
     @property
     def ok(self):
         return self.valid and self.met and (self.cuts or self.added_seams == 0)
+
+    @property
+    def nets(self):
+        return len(self.fallbacks)
 
     @property
     def growth(self):
@@ -118,7 +123,7 @@ class Row:
         return self.time / self.newton_seconds
 
     def as_json(self):
-        figures = ("ok", "growth", "added_length", "extra", "newton_multiple")
+        figures = ("ok", "nets", "growth", "added_length", "extra", "newton_multiple")
         numbers = asdict(self) | {name: getattr(self, name) for name in figures}
         return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in numbers.items()}
 
@@ -181,8 +186,7 @@ def fill_from_report(row, report):
     row.how, row.charts_in, row.charts = report["intervention"], before["chart_count"], after["chart_count"]
     row.smallest, row.small_charts = number(after["smallest_chart"]), after["small_charts"]
     row.bl_in, row.bl = number(before["boundary_length"]), number(after["boundary_length"])
-    if cut := report.get("rectangles"):
-        row.nets = cut["tutte_charts"] + cut["extra_corners"]
+    row.fallbacks = report.get("fallbacks", [])
     row.re_embedded = sum(chart["re_embedded"] for chart in report["charts"])
     row.pe_in, row.pe = number(before["pe_fixed_aspect"]), number(after["pe_fixed_aspect"])
     row.e_d_in, row.e_d = number(before["distortion"]), number(after["distortion"])
@@ -195,12 +199,11 @@ def fill_from_report(row, report):
     row.stages = {stage["stage"]: stage["seconds"] for stage in report["timings"]}
 
 
-def gap_to_check(report, goal):
-    """The guaranteed gap as a fraction of the charts' own bounding box, which the checker measures against."""
-    if goal.aspect == "free" or report["intervention"] == "unchanged":
-        return report["gap"]["value"]
-    width, height = report["after"]["box_width"], report["after"]["box_height"]
-    return report["gap"]["value"] * max(width, height) * math.sqrt(2) / math.hypot(width, height)
+def gap_to_check(report):
+    """What the program says of the gap, as arguments of the checker: of what is left as it is, the box is the charts' own."""
+    unit = "diagonal" if report["gap"]["unit"] == "box_diagonal" else "long_side"
+    box = "charts" if report["intervention"] == "unchanged" else "aspect"
+    return {"gap": report["gap"]["value"], "gap_unit": unit, "gap_box": box}
 
 
 def check_report(row, found):
@@ -210,16 +213,18 @@ def check_report(row, found):
     for name, (told, seen, tolerance) in said.items():
         if seen is not None and not abs(told - seen) <= tolerance * abs(seen):
             found["problems"].append(f"report: {name} is {told}, the file has {seen}")
+    if row.how != "unchanged" and not found.get("fills_texture", True):
+        found["problems"].append("UVs: do not fill the unit square")
     if "e_d" in found and row.e_d < found["e_d"] * (1 - E_D_TOLERANCE):
         found["problems"].append(f"report: E_d is {row.e_d:.4f}, the file has {found['e_d']:.4f} at least")
 
 
 def fill_from_check(row, mesh, output, goal, report):
-    aspect = 1.0 if goal.aspect == "square" else 0.0
-    found = check_atlas.check(mesh, output, goal.bound, aspect, gap_to_check(report, goal), cuts=goal.cuts)
+    aspect = check_atlas.aspect_of(goal.aspect)
+    found = check_atlas.check(mesh, output, goal.bound, aspect, cuts=goal.cuts, **gap_to_check(report))
     check_report(row, found)
     problems = [problem for problem in found["problems"] if not problem.startswith("PE:")]
-    row.added_seams = found.get("added_seams")
+    row.added_seams, row.e_d_checked = found.get("added_seams"), found.get("e_d", math.nan)
     row.valid, row.met = not problems, found["ok"] or "PE" not in " ".join(found["problems"])
     row.reason = "; ".join(found["problems"])
 
@@ -229,17 +234,22 @@ def count_triangles(mesh):
     return sum(len(tokens) - 3 for tokens in lines)
 
 
+def helper_arguments(row, output, goal, report):
+    width = repr(check_atlas.aspect_of(goal.aspect) or 1.0)
+    return [output, width, *(["newton", "only"] if row.cuts else [repr(report["gap"]["value"]), report["gap"]["unit"]])]
+
+
 def fill_from_helper(helper, mesh, results):
-    """The charts' own optimum, the lesser of that found from the input and from the result, and the stock Newton iteration."""
-    command = [helper, mesh]
-    for row, output, report in results:
-        command += [output, "newton", "only"] if row.cuts else [output, repr(report["gap"]["value"]), report["gap"]["unit"]]
+    """The charts' own optimum, the lesser of that found from the input and from the result, and the stock Newton iteration.
+
+    `results`: row, file, goal and report of each."""
+    command = [helper, mesh, *(word for result in results for word in helper_arguments(*result))]
     try:
         run = subprocess.run(command, capture_output=True, timeout=HELPER_LIMIT_S, check=True)
         answer = json.loads(run.stdout)
     except (subprocess.SubprocessError, ValueError) as error:
         answer = {"input": {}, "results": [{"error": f"optimum: {error}"} for _ in results]}
-    for (row, _, _), result in zip(results, answer["results"], strict=True):
+    for (row, *_), result in zip(results, answer["results"], strict=True):
         optima = [part["optimum"] for part in (answer["input"], result) if part.get("optimum") is not None]
         row.optimum = math.nan if row.cuts else min(optima, default=math.nan)
         row.newton_seconds = number(result.get("newton_seconds"))
@@ -247,22 +257,26 @@ def fill_from_helper(helper, mesh, results):
             row.reason = "; ".join(filter(None, [row.reason, result["error"]]))
 
 
+def measure_run(program, folder, mesh, output, goal):
+    """The program's run at one goal, checked: a row, and the report where there is one."""
+    row = Row(folder, mesh.stem, goal.name, goal.seams, count_triangles(mesh))
+    run = refine(program, mesh, output, goal)
+    row.cpu_seconds, row.peak_bytes = run.cpu_seconds, run.peak_bytes
+    if not run.done:
+        row.reason = run.message
+        return row, None
+    fill_from_report(row, run.report)
+    fill_from_check(row, mesh, output, goal, run.report)
+    return row, run.report
+
+
 def measure_file(build, folder, mesh, goals):
     """One row per goal."""
     with tempfile.TemporaryDirectory(prefix="atlas-refine-bench-") as scratch:
-        rows, results, triangles = [], [], count_triangles(mesh)
-        for k, goal in enumerate(goals):
-            row = Row(folder, mesh.stem, goal.name, goal.seams, triangles)
-            rows.append(row)
-            output = Path(scratch) / f"{k}.obj"
-            run = refine(build / "atlas-refine", mesh, output, goal)
-            row.cpu_seconds, row.peak_bytes = run.cpu_seconds, run.peak_bytes
-            if not run.done:
-                row.reason = run.message
-                continue
-            fill_from_report(row, run.report)
-            fill_from_check(row, mesh, output, goal, run.report)
-            results.append((row, output, run.report))
+        outputs = [Path(scratch) / f"{k}.obj" for k in range(len(goals))]
+        runs = [(*measure_run(build / "atlas-refine", folder, mesh, o, g), o, g) for o, g in zip(outputs, goals, strict=True)]
+        rows = [row for row, *_ in runs]
+        results = [(row, output, goal, report) for row, report, output, goal in runs if report]
         if results:
             fill_from_helper(build / "atlas_refine_bench", mesh, results)
         return rows

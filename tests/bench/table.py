@@ -4,6 +4,7 @@ import math
 import statistics
 
 from table_rectangles import rectangle_lines
+from table_roads import road_lines
 
 LOW_DISTORTION = 1.2  # inputs above this E_d are left out of the means
 EXTRA_LIMIT = {"disk": 0.010, "disk_deep": 0.013, "atlas-clean": 0.007}  # mean extra E_d at 0.80 free
@@ -47,11 +48,11 @@ COLUMNS = (
     ("MiB", lambda r: text(r.peak_bytes / 2**20, ".0f"), ">5"),
     ("reason", lambda r: r.reason, ""),
 )
-NOTES = """emb: charts that overlapped themselves and were embedded anew. nets: safety nets of the road that cuts. BL+ %: seams added / seams before.
-dE %: (E_d - E_d in) / E_d in. extra: E_d over the charts' own optimum (the engine without a bound), of results without a cut.
-gap %, within: per cent of the box diagonal, guaranteed between charts, measured within. s: inside refine(), one thread. cpu s: processor
-time of the whole process, files included. xNewton: the lesser of both over one Newton iteration with stock Eigen on the same charts.
-MiB: peak memory of the process."""
+NOTES = """emb: charts that overlapped themselves and were embedded anew. nets: how often something else was done than was tried first.
+BL+ %: seams added / seams before. dE %: (E_d - E_d in) / E_d in. extra: E_d over the charts' own optimum (the engine without a bound), of
+results without a cut. gap %, within: per cent of the box diagonal, guaranteed between charts, measured within. s: inside refine(), one
+thread. cpu s: processor time of the whole process, files included. xNewton: the lesser of both over one Newton iteration with stock Eigen
+on the same charts. MiB: peak memory of the process."""
 
 
 def header():
@@ -105,9 +106,10 @@ def summary(rows):
         for folder in dict.fromkeys(row.folder for row in at_goal):
             out.append(f"  {folder:22} {group_line([row for row in at_goal if row.folder == folder])}")
         required = [row for row in at_goal if row.folder in EXTRA_LIMIT]
-        if len(required) < len(at_goal) or len({row.folder for row in required}) > 1:
+        if required and (len(required) < len(at_goal) or len({row.folder for row in required}) > 1):
             out.append(f"  {'/'.join(EXTRA_LIMIT)}: ok {sum(row.ok for row in required)} of {len(required)}")
-    out += ["", *time_lines(rows), *extreme_lines(rows), "", *rectangle_lines(rows, EXTRA_LIMIT)]
+    judged = [row for row in rows if row.folder in EXTRA_LIMIT] or rows
+    out += ["", *time_lines(rows), *extreme_lines(rows), "", *rectangle_lines(judged), "", *road_lines(rows)]
     failures = [row for row in rows if not row.ok]
     out += ["", f"failures: {len(failures)} of {len(rows)}"]
     out += [f"  {row.folder}/{row.file} at {row.goal}: {row.reason or 'seams added'}" for row in failures]

@@ -7,6 +7,9 @@ from pathlib import Path
 
 import check_atlas
 import pytest
+from borders import Boundary
+from exact import exactly_touch
+from topology import Topology
 
 SHEET = 3  # quads along a side of a sheet
 
@@ -48,6 +51,12 @@ def problems(tmp_path, after, before=None, **options):
     return " | ".join(found["problems"])
 
 
+def stretched(chart, u, v=1.0):
+    """A chart with its UVs multiplied."""
+    positions, uvs, faces = chart
+    return positions, [(u * a, v * b) for a, b in uvs], faces
+
+
 GOOD = text_of(sheet(0, 0, 0.4), sheet(0.6, 0, 0.4, place=2.0))
 
 
@@ -73,6 +82,75 @@ def test_missed_bound(tmp_path):
 def test_missed_gap(tmp_path):
     assert problems(tmp_path, GOOD, gap=0.2).startswith("gap: 0.185")
     assert problems(tmp_path, GOOD, gap=0.2, gap_unit="long_side") == ""
+
+
+WIDE = (sheet(0, 0, 0.9), sheet(1.1, 0, 0.9, place=2.0))  # two squares in a box of 2:0.9, in units where both sides count alike
+
+
+def test_uvs_that_fill_a_wide_texture(tmp_path):
+    """In a texture of 2:1 u is halved: the squares are squares there again, 0.1 of its long side apart."""
+    filling = text_of(*(stretched(chart, 0.5) for chart in WIDE))
+    found = check(tmp_path, filling, filling, pe_bound=0.8, aspect=2.0, gap=0.099, gap_unit="long_side")
+    assert found["problems"] == []
+    assert found["fills_texture"]
+    assert found["pe_fixed_aspect"] == pytest.approx(0.81)
+    assert found["texture_share"] == pytest.approx(0.81)
+    assert found["pe"] == pytest.approx(0.9)
+    assert found["gap"] == pytest.approx(0.1)
+    assert (found["e_d_in"], found["e_d"]) == (pytest.approx(1), pytest.approx(1))
+    assert problems(tmp_path, filling, aspect=2.0, gap=0.101, gap_unit="long_side").startswith("gap: 0.1")
+
+
+def test_uvs_that_fill_half_of_a_wide_texture(tmp_path):
+    """With both sides in one unit they cover the lower half of the square: half the share, and everything twice as wide."""
+    half = text_of(*(stretched(chart, 0.5, 0.5) for chart in WIDE))
+    found = check(tmp_path, half, half, pe_bound=0.8, aspect=2.0)
+    assert found["problems"] == ["PE: 0.405000 is below 0.8"]
+    assert found["texture_share"] == pytest.approx(0.405)
+    assert found["e_d"] == pytest.approx(1.25)
+    assert check(tmp_path, half, half, pe_bound=0.8)["problems"] == []
+
+
+def test_tall_texture(tmp_path):
+    tall = text_of(*((p, [(v, 0.5 * u) for u, v in uvs], [face[::-1] for face in faces]) for p, uvs, faces in WIDE))
+    found = check(tmp_path, tall, tall, pe_bound=0.8, aspect=0.5, gap=0.099, gap_unit="long_side")
+    assert found["problems"] == []
+    assert found["pe_fixed_aspect"] == pytest.approx(0.81)
+    assert found["gap"] == pytest.approx(0.1)
+    assert found["e_d"] == pytest.approx(1)
+    assert check(tmp_path, tall, tall, aspect=2.0)["e_d"] == pytest.approx(2.125)
+
+
+def test_gap_of_the_texture_or_of_the_charts_own_box(tmp_path):
+    """The charts' box is 1 by 0.4; the texture's diagonal is that of the square around it."""
+    assert check(tmp_path, GOOD, GOOD, aspect=1.0)["gap"] == pytest.approx(0.2 / math.sqrt(2))
+    assert check(tmp_path, GOOD, GOOD, aspect=1.0, gap_box="charts")["gap"] == pytest.approx(0.2 / math.hypot(1, 0.4))
+    assert check(tmp_path, GOOD, GOOD)["gap"] == pytest.approx(0.2 / math.hypot(1, 0.4))
+
+
+@pytest.mark.parametrize(
+    ("chart", "fills"),
+    [
+        (sheet(0, 0, 1), True),
+        (stretched(sheet(0, 0, 1), 1, 0.5), True),
+        (sheet(0, 0, 0.9), False),
+        (sheet(0.1, 0, 1), False),
+        (sheet(0, -0.1, 1.1), False),
+    ],
+)
+def test_fills_the_texture(tmp_path, chart, fills):
+    assert check(tmp_path, text_of(chart), text_of(chart), aspect=1.0)["fills_texture"] == fills
+
+
+@pytest.mark.parametrize("width", [7.0, 1 / 7])
+def test_exact_tests_do_not_depend_on_the_texture(tmp_path, width):
+    """One rounding step of area or of distance is there or not whatever u is multiplied by."""
+    thin = [(0.0, 0.0), (1.0, 1.0), (0.5, math.nextafter(0.5, 1))]
+    assert problems(tmp_path, text_of(mesh(thin, [(0, 1, 2)])), aspect=width) == ""
+    square = mesh([(0.0, 0.0), (0.5, 0.0), (0.5, 1.0), (0.0, 1.0)], [(0, 1, 2, 3)])
+    for x, good in ((math.nextafter(0.5, 1), True), (0.5, False)):
+        tip = mesh([(x, 0.3), (1.0, 0.0), (1.0, 0.9)], [(0, 1, 2)], [(3.0, 0, 0), (4.0, 0, 0), (4.0, 1, 0)])
+        assert ("borders" not in problems(tmp_path, text_of(square, tip), aspect=width)) == good
 
 
 def test_gap_far_larger_than_an_edge(tmp_path):
@@ -229,10 +307,10 @@ def test_contacts_agree_with_brute_force(tmp_path):
         text = text_of(sheet(0, 0, 1), sheet(0.3, -0.2, 0.9, place=2.0, turn_deg=turn))
         (tmp_path / "a.obj").write_text(text)
         obj = check_atlas.read_obj(tmp_path / "a.obj")
-        border = check_atlas.Boundary(obj, check_atlas.Topology(obj))
+        border = Boundary(obj, Topology(obj))
         count = len(border.a)
         apart = [(i, j) for i in range(count) for j in range(i) if border.chart[i] != border.chart[j]]
-        brute = sum(check_atlas.exactly_touch(*border.pairs(i, j)) for i, j in apart)
+        brute = sum(exactly_touch(*border.pairs(i, j)) for i, j in apart)
         assert brute > 0
         assert len(border.contacts_and_gap(0)[0]) == brute
 
@@ -247,4 +325,6 @@ def test_command_line(tmp_path):
     good = run(tmp_path / "a.obj", tmp_path / "a.obj", "--pe-bound", "0.8")
     assert (good.returncode, good.stdout.count("\n"), good.stderr) == (0, 1, "")
     assert run(tmp_path / "a.obj", tmp_path / "a.obj", "--pe-bound", "0.9").returncode == 1
+    assert run(tmp_path / "a.obj", tmp_path / "a.obj", "--pe-bound", "0.8", "--aspect", "square").returncode == 1
+    assert run(tmp_path / "a.obj", tmp_path / "a.obj", "--pe-bound", "0.8", "--aspect", "wide").returncode == 2
     assert run(tmp_path / "a.obj", tmp_path / "missing.obj").returncode == 2
