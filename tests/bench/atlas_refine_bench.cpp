@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "input/split_charts.h"
+#include "io/mesh_file.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
-#include "obj_file.h"
 #include "reduce/density.h"
 #include "reduce/re_embed.h"
 #include "reduce/reduce.h"
@@ -46,9 +46,9 @@ struct Charts {
   std::vector<double> scales;  // that were applied
 
   explicit Charts(const std::string& path) {
-    const cli::ObjFile file = cli::ObjFile::read(path);
-    ChartSet set = split_charts(file.atlas());
-    require_no_flips(file.atlas(), set);
+    const auto file = io::read_mesh_file(path);
+    ChartSet set = split_charts(file->atlas());
+    require_no_flips(file->atlas(), set);
     file_box = uv_box(set.charts).size();
     charts = std::move(set.charts);
     for (const Chart& chart : charts) scales.push_back(dirichlet_sums(chart).best_scale());
