@@ -31,8 +31,8 @@ class MeshFile {
   virtual std::string with_cut(const CutMesh& cut, const std::vector<Vec2>& corner_uvs) const = 0;
 };
 
-/// Reads a file whose format its name tells: OBJ, whatever the name is. Throws InputError that says what cannot be used, and
-/// where.
+/// Reads a file in the format of its name; so far every name stands for OBJ. Throws InputError that says what cannot be used and,
+/// in text, on which line.
 std::unique_ptr<const MeshFile> read_mesh_file(const std::filesystem::path& path);
 
 }  // namespace atlas_refine::io

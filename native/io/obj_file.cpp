@@ -35,6 +35,7 @@ std::string ObjFile::with_cut(const CutMesh& cut, const std::vector<Vec2>& corne
 
 std::string ObjFile::with_uvs(const std::vector<Vec2>& corner_uvs) const {
   const ObjText& obj = text_;
+  if (corner_uvs == obj.atlas.corner_uvs) return obj.text;
   std::vector<UvUse> uses;
   uses.reserve(corner_uvs.size());
   for (const ObjText::UvReference& reference : obj.uv_references) {
