@@ -3,13 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace atlas_refine::cli {
 namespace {
 
 CommandLine parsed(std::vector<std::string> words) {
   words.insert(words.begin(), "atlas-refine");
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
+  std::vector<char*> argv(words.size());
+  std::transform(words.begin(), words.end(), argv.begin(), [](std::string& word) { return word.data(); });
   return parse_command_line(static_cast<int>(argv.size()), argv.data());
 }
 

@@ -71,7 +71,10 @@ TEST(ObjFile, RelativeIndicesFollowRecordsRepeatedBetweenBlocks) {
       "v 0 0 1\nv 1 0 1\nv 0 1 1\nvt 0 2\nvt 1 2\nvt 0 3\nf -3/-3 -2/-2 -1/-1\nf -6/-6 2/2 -1/6\n";
   const ObjFile file = ObjFile::parse(text);
   std::vector<Vec2> uvs = file.atlas().corner_uvs;
-  for (std::size_t c = 0; c < uvs.size(); ++c) uvs[c] += 0.01 * static_cast<double>(c / 3) * Vec2(1, 1);
+  for (std::size_t c = 0; c < uvs.size(); ++c) {
+    const std::size_t face = c / 3;
+    uvs[c] += 0.01 * static_cast<double>(face) * Vec2(1, 1);
+  }
   const ObjFile again = ObjFile::parse(file.with_uvs(uvs));
   EXPECT_EQ(again.atlas().corner_uvs, uvs);
   EXPECT_EQ(again.atlas().corner_vertices, file.atlas().corner_vertices);
