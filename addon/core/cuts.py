@@ -52,13 +52,14 @@ def plan_cut(source, cut, corner_uvs):
     """The plan that makes `cut` (the engine's CutMesh) out of the AtlasArrays `source`. Raises ValueError where they do not fit
     together, which is a bug of the engine and must not reach a mesh."""
     _check_indices(source, cut, corner_uvs)
-    corner_sources, corner_weights = _corner_means(source, cut)
+    corner_sources, corner_weights = cut.corner_sources, cut.corner_weights
+    _check_corner_means(source, cut, corner_sources, corner_weights)
     corner_vertices, first_corners, numbers = _double_new_vertices(source, cut, corner_sources)
-    corners, weights = corner_sources[first_corners], corner_weights[first_corners]
-    vertex_sources = source.corner_vertices[corners].reshape(-1, 3)
-    new_positions = _means(source.positions.astype(np.float64), vertex_sources, weights)
-    positions = np.concatenate([source.positions, new_positions]).astype(np.float32)
+    vertex_sources, weights = source.corner_vertices[corner_sources[first_corners]], corner_weights[first_corners]
+    positions = source.positions.astype(np.float64)
+    positions = np.concatenate([positions, _means(positions, vertex_sources, weights)]).astype(np.float32)
     atlas = AtlasArrays(positions, cut.face_offsets, corner_vertices, corner_uvs)
+    _check_places(source, atlas, corner_sources, corner_weights)
     return CutPlan(
         atlas=atlas,
         face_sources=cut.face_sources,
@@ -66,7 +67,7 @@ def plan_cut(source, cut, corner_uvs):
         corner_weights=corner_weights,
         vertex_sources=vertex_sources,
         vertex_weights=weights,
-        edge_splits=_edge_splits(source, corners, weights),
+        edge_splits=_edge_splits(source, corner_sources[first_corners], weights),
         new_seams=_seam_edges(atlas, numbers[cut.new_seams]),
     )
 
@@ -114,7 +115,6 @@ def _check_indices(source, cut, corner_uvs):
     _require(len(offsets) == len(sources) + 1 and offsets[0] == 0 and np.all(np.diff(offsets) >= 3), "faces")
     _require(offsets[-1] == len(cut.corner_vertices) == len(corner_uvs), "corners")
     _require(_in_range(cut.corner_vertices, vertex_count) and _in_range(cut.new_seams, vertex_count), "vertices")
-    _require(_in_range(cut.new_vertex_corners, len(source.corner_vertices)), "new vertices")
     _require(
         len(np.unique(cut.corner_vertices[cut.corner_vertices >= len(source.positions)])) == len(cut.new_vertex_corners),
         "a new vertex is in no face",
@@ -129,6 +129,22 @@ def _in_range(indices, count):
     return len(indices) == 0 or (indices.min() >= 0 and indices.max() < count)
 
 
+def _check_corner_means(source, cut, corner_sources, corner_weights):
+    """Every corner is the mean of corners of the input face that its face is part of."""
+    _require(corner_sources.shape == corner_weights.shape == (len(cut.corner_vertices), 3), "sources of corners")
+    faces = np.repeat(cut.face_sources, np.diff(cut.face_offsets))[:, None]
+    begin, end = source.face_offsets[faces], source.face_offsets[faces + 1]
+    _require(np.all((corner_sources >= begin) & (corner_sources < end)), "a corner lies outside of its face")
+    _require(np.all(corner_weights >= 0) and np.all(np.abs(corner_weights.sum(axis=1) - 1) < 1e-9), "weights of corners")
+
+
+def _check_places(source, atlas, corner_sources, corner_weights):
+    """All faces around a vertex have it at one place, those around an input vertex where it was."""
+    positions = source.positions.astype(np.float64)
+    means = _means(positions, source.corner_vertices[corner_sources], corner_weights).astype(np.float32)
+    _require(np.array_equal(means, atlas.positions[atlas.corner_vertices]), "a corner is not where its vertex is")
+
+
 def _double_new_vertices(source, cut, corner_sources):
     """A new vertex on an edge whose vertices are doubled is doubled as well, or it would sew together what lies apart. Returns the
     corner_vertices, a corner of each new vertex, and the first number of each of the engine's vertices."""
@@ -141,42 +157,6 @@ def _double_new_vertices(source, cut, corner_sources):
     numbers = np.arange(old_vertices + len(cut.new_vertex_corners))
     numbers[old_vertices:] = old_vertices + np.searchsorted(distinct[:, 0], numbers[old_vertices:])
     return corner_vertices, corners[first], numbers
-
-
-def _corner_means(source, cut):
-    """corner_sources and corner_weights of a CutPlan."""
-    old_vertices = len(source.positions)
-    vertex_sources = source.corner_vertices[cut.new_vertex_corners].reshape(-1, 3)
-    vertex_weights = np.asarray(cut.new_vertex_weights)
-    supports = np.repeat(np.arange(old_vertices)[:, None], 3, axis=1)  # an input vertex is the mean of itself
-    supports = np.concatenate([supports, vertex_sources])[cut.corner_vertices]
-    weights = np.concatenate([np.tile([1.0, 0.0, 0.0], (old_vertices, 1)), vertex_weights])[cut.corner_vertices]
-    faces = np.repeat(cut.face_sources, np.diff(cut.face_offsets))
-    found = _find_corners(source, faces, supports)
-    weightless = weights == 0
-    found = np.where(weightless, found[np.arange(len(found)), weights.argmax(axis=1)][:, None], found)
-    _require(np.all(found >= 0), "a new vertex lies outside of its faces")
-    return found, weights
-
-
-def _find_corners(source, faces, vertices):
-    """The corner of face faces[i] at each of the vertices in row i; -1 where the face has none. A vertex that is none of the
-    face's stands for the one at its position: meshes double vertices for the sake of normals."""
-    found = _lookup(source, source.corner_vertices, faces, vertices)
-    if np.all(found >= 0):
-        return found
-    places = _places(source.positions)
-    return np.where(found >= 0, found, _lookup(source, places[source.corner_vertices], faces, places[vertices]))
-
-
-def _lookup(source, corner_vertices, faces, vertices):
-    stride = np.int64(len(source.positions) + 1)
-    corner_faces = np.repeat(np.arange(len(source.face_offsets) - 1), np.diff(source.face_offsets))
-    keys = corner_faces * stride + corner_vertices
-    order = np.argsort(keys, kind="stable")
-    wanted = faces[:, None].astype(np.int64) * stride + vertices
-    place = np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)
-    return np.where(keys[order][place] == wanted, order[place], -1)
 
 
 def _places(positions):
@@ -206,12 +186,11 @@ def _following_corners(face_offsets):
 
 def _edge_splits(source, corners, weights):
     """The new vertices on edges of input faces, sorted by edge and along each; those inside of faces are left out."""
-    corner_faces = np.repeat(np.arange(len(source.face_offsets) - 1), np.diff(source.face_offsets))
     following = _following_corners(source.face_offsets)
     edges = {}
     for new, (row, three) in enumerate(zip(corners.tolist(), weights.tolist(), strict=True)):
         ends = [(corner, weight) for corner, weight in zip(row, three, strict=True) if weight > 0]
-        _require(len(ends) >= 2 and len(set(corner_faces[row])) == 1, "a new vertex is an old one")
+        _require(len(ends) >= 2, "a new vertex is an old one")
         (a, _), (b, weight_b) = ends[:2]
         if len(ends) == 2 and (following[a] == b or following[b] == a):
             start, end = int(source.corner_vertices[a]), int(source.corner_vertices[b])

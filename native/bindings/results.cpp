@@ -114,6 +114,16 @@ void bind_cut_mesh(py::module_& module) {
       .property("face_offsets", [](const CutMesh& m) { return to_array(m.face_offsets); })
       .property("corner_vertices", [](const CutMesh& m) { return to_array(m.corner_vertices); })
       .property("face_sources", [](const CutMesh& m) { return to_array(m.face_sources); })
+      .property("corner_sources",
+                [](const CutMesh& m) {
+                  const auto& sources = m.corner_sources;
+                  return table<std::int32_t>(sources.size(), 3, [&](std::size_t i, int k) { return sources[i][k]; });
+                })
+      .property("corner_weights",
+                [](const CutMesh& m) {
+                  const auto& weights = m.corner_weights;
+                  return table<double>(weights.size(), 3, [&](std::size_t i, int k) { return weights[i][k]; });
+                })
       .property("new_vertex_corners",
                 [](const CutMesh& m) {
                   const auto& vertices = m.new_vertices;

@@ -1,11 +1,10 @@
-// One or several OBJ files as one atlas, and a result of it given back to the files.
+// One or several files as one atlas, and a result of it given back to the files.
 #include "collection.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "cut_corners.h"
-#include "input_file.h"
+#include "io/input_file.h"
 
 namespace atlas_refine::cli {
 
@@ -19,20 +18,20 @@ bool divides_nothing(const CutMesh& cut, const Atlas& atlas) {
 }  // namespace
 
 void Collection::add(const std::filesystem::path& path) {
-  ObjFile obj = ObjFile::read(path);
-  if (files_.size() == 1 && atlas_.face_offsets.empty()) atlas_ = files_.front().obj.atlas();
+  std::unique_ptr<const io::MeshFile> mesh = io::read_mesh_file(path);
+  if (files_.size() == 1 && atlas_.face_offsets.empty()) atlas_ = atlas_of(0);
   const auto vertices = static_cast<int>(atlas_.positions.size());
   const int faces = atlas_.face_count(), corners = atlas_.corner_count();
   if (!files_.empty()) {
-    const Atlas& added = obj.atlas();
+    const Atlas& added = mesh->atlas();
     if (added.corner_vertices.size() > static_cast<std::size_t>(std::numeric_limits<int>::max() - corners))
-      throw InputError(path, "has more face corners than this program can count");
+      throw io::InputError(path, "has more face corners than this program can count");
     atlas_.positions.insert(atlas_.positions.end(), added.positions.begin(), added.positions.end());
     for (int f = 1; f <= added.face_count(); ++f) atlas_.face_offsets.push_back(corners + added.face_offsets[f]);
     for (int vertex : added.corner_vertices) atlas_.corner_vertices.push_back(vertices + vertex);
     atlas_.corner_uvs.insert(atlas_.corner_uvs.end(), added.corner_uvs.begin(), added.corner_uvs.end());
   }
-  files_.push_back({path, std::move(obj), vertices, faces, corners});
+  files_.push_back({path, std::move(mesh), vertices, faces, corners});
 }
 
 std::string Collection::place_of_face(int face) const {
@@ -42,21 +41,20 @@ std::string Collection::place_of_face(int face) const {
   }
   const auto file =
       std::prev(std::upper_bound(files_.begin(), files_.end(), face, [](int f, const File& x) { return f < x.first_face; }));
-  return file->path.string() + ": line " + std::to_string(file->obj.line_of_face(face - file->first_face));
+  return file->path.string() + ": " + file->mesh->where(face - file->first_face);
 }
 
 Collection::Output Collection::output(int k, const RefineResult& result) const {
   const File& file = files_[k];
-  if (result.intervention == Intervention::Unchanged) return {file.obj.text()};
   const Part mine = part(file, result);
-  if (!mine.cut) return {file.obj.text_with_uvs(mine.corner_uvs)};
-  return {file.obj.text_with_cut(*mine.cut, mine.corner_uvs),
-          static_cast<int>(mine.cut->face_sources.size()) - file.obj.atlas().face_count(),
+  if (!mine.cut) return {file.mesh->with_uvs(mine.corner_uvs)};
+  return {file.mesh->with_cut(*mine.cut, mine.corner_uvs),
+          static_cast<int>(mine.cut->face_sources.size()) - file.mesh->atlas().face_count(),
           static_cast<int>(mine.cut->new_vertices.size())};
 }
 
 Collection::Part Collection::part(const File& file, const RefineResult& result) const {
-  const Atlas& own = file.obj.atlas();
+  const Atlas& own = file.mesh->atlas();
   const auto uvs = [&](int first, int last) {
     return std::vector<Vec2>(result.corner_uvs.begin() + first, result.corner_uvs.begin() + last);
   };
@@ -75,39 +73,42 @@ Collection::Part Collection::part(const File& file, const RefineResult& result) 
 // files is there in both.
 CutMesh Collection::cut_of(const File& file, const CutMesh& whole, std::size_t first, std::size_t last) const {
   const auto all_vertices = static_cast<int>(atlas().positions.size());
-  const auto own_vertices = static_cast<int>(file.obj.atlas().positions.size());
-  std::vector<int> face_of_vertex(whole.new_vertices.size(), -1);
-  for (std::size_t face = first; face < last; ++face) {
-    for (int c = whole.face_offsets[face]; c < whole.face_offsets[face + 1]; ++c) {
-      const int vertex = whole.corner_vertices[c];
-      if (vertex >= all_vertices) face_of_vertex[vertex - all_vertices] = whole.face_sources[face];
-    }
+  const auto own_vertices = static_cast<int>(file.mesh->atlas().positions.size());
+  const int begin = whole.face_offsets[first], end = whole.face_offsets[last];
+  std::vector<int> corner_of_vertex(whole.new_vertices.size(), -1);
+  for (int c = begin; c < end; ++c) {
+    const int vertex = whole.corner_vertices[c];
+    if (vertex >= all_vertices) corner_of_vertex[vertex - all_vertices] = c;
   }
   CutMesh cut;
   std::vector<int> own_index(whole.new_vertices.size(), -1);
   for (std::size_t k = 0; k < own_index.size(); ++k) {
-    if (face_of_vertex[k] < 0) continue;
+    if (corner_of_vertex[k] < 0) continue;
     own_index[k] = own_vertices + static_cast<int>(cut.new_vertices.size());
-    cut.new_vertices.push_back(in_file(file, whole.new_vertices[k], face_of_vertex[k]));
+    cut.new_vertices.push_back(in_file(file, whole, static_cast<int>(k), corner_of_vertex[k]));
   }
   cut.face_offsets.push_back(0);
   for (std::size_t face = first; face < last; ++face) {
     cut.face_sources.push_back(whole.face_sources[face] - file.first_face);
-    cut.face_offsets.push_back(whole.face_offsets[face + 1] - whole.face_offsets[first]);
-    for (int c = whole.face_offsets[face]; c < whole.face_offsets[face + 1]; ++c) {
-      const int vertex = whole.corner_vertices[c];
-      cut.corner_vertices.push_back(vertex < all_vertices ? vertex - file.first_vertex : own_index[vertex - all_vertices]);
-    }
+    cut.face_offsets.push_back(whole.face_offsets[face + 1] - begin);
+  }
+  for (int c = begin; c < end; ++c) {
+    const int vertex = whole.corner_vertices[c];
+    cut.corner_vertices.push_back(vertex < all_vertices ? vertex - file.first_vertex : own_index[vertex - all_vertices]);
+    cut.corner_sources.push_back(whole.corner_sources[c]);
+    for (int& source : cut.corner_sources.back()) source -= file.first_corner;
+    cut.corner_weights.push_back(whole.corner_weights[c]);
   }
   return cut;
 }
 
-NewVertex Collection::in_file(const File& file, const NewVertex& vertex, int face) const {
-  const int end = file.first_corner + file.obj.atlas().corner_count();
-  const bool at_home = vertex.corners[0] >= file.first_corner && vertex.corners[0] < end;
-  NewVertex own = vertex;
-  if (!at_home) own.corners = point_of_face(atlas(), vertex, face).corners;
-  for (int& corner : own.corners) corner -= file.first_corner;
+// A vertex between two files is, in the one that does not hold its corners, the mean that `corner` of that file is.
+NewVertex Collection::in_file(const File& file, const CutMesh& whole, int vertex, int corner) const {
+  NewVertex own = whole.new_vertices[vertex];
+  const int end = file.first_corner + file.mesh->atlas().corner_count();
+  if (own.corners[0] < file.first_corner || own.corners[0] >= end)
+    own = {whole.corner_sources[corner], whole.corner_weights[corner]};
+  for (int& own_corner : own.corners) own_corner -= file.first_corner;
   return own;
 }
 

@@ -1,33 +1,34 @@
-// One or several OBJ files as one atlas, and a result of it given back to the files.
+// One or several files as one atlas, and a result of it given back to the files.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "atlas_refine/refine.h"
-#include "obj_file.h"
+#include "io/mesh_file.h"
 
 namespace atlas_refine::cli {
 
 /// A collection of models (section 4, "A collection of models"): faces, vertices and corners of the files, one after the other.
 class Collection {
  public:
-  /// Throws InputError.
+  /// Throws io::InputError.
   void add(const std::filesystem::path& path);
 
   int file_count() const { return static_cast<int>(files_.size()); }
-  const ObjFile& file(int k) const { return files_[k].obj; }
   const std::filesystem::path& path(int k) const { return files_[k].path; }
-  const Atlas& atlas() const { return files_.size() == 1 ? files_.front().obj.atlas() : atlas_; }
+  const Atlas& atlas_of(int k) const { return files_[k].mesh->atlas(); }
+  const Atlas& atlas() const { return files_.size() == 1 ? atlas_of(0) : atlas_; }
 
   /// "FILE" or, where the face (of atlas()) is known, "FILE: line N"; without a face the first file stands for all.
   std::string place_of_face(int face) const;
 
-  /// What file `k` has become in `result`: its text, and what the cut added to it.
+  /// What file `k` has become in `result`: its bytes, and what the cut added to it.
   struct Output {
-    std::string text;
+    std::string bytes;
     int added_faces = 0;
     int added_vertices = 0;
   };
@@ -36,7 +37,7 @@ class Collection {
  private:
   struct File {
     std::filesystem::path path;
-    ObjFile obj;
+    std::unique_ptr<const io::MeshFile> mesh;
     int first_vertex;
     int first_face;
     int first_corner;
@@ -48,7 +49,7 @@ class Collection {
   };
   Part part(const File& file, const RefineResult& result) const;
   CutMesh cut_of(const File& file, const CutMesh& whole, std::size_t first, std::size_t last) const;
-  NewVertex in_file(const File& file, const NewVertex& vertex, int face) const;
+  NewVertex in_file(const File& file, const CutMesh& whole, int vertex, int corner) const;
 
   std::vector<File> files_;
   Atlas atlas_;

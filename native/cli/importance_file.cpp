@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "input_file.h"
+#include "io/input_file.h"
 
 namespace atlas_refine::cli {
 
@@ -16,10 +16,10 @@ bool is_separator(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 }  // namespace
 
 std::vector<double> read_importance(const std::filesystem::path& path, int face_count) {
-  const std::string text = read_text(path, "a file of numbers");
+  const std::string text = io::read_text(path, "a file of numbers");
   std::vector<double> values;
   int line = 1;
-  const auto refuse = [&](const std::string& what) { throw InputError(path, "line " + std::to_string(line) + ": " + what); };
+  const auto refuse = [&](const std::string& what) { throw io::InputError(path, "line " + std::to_string(line) + ": " + what); };
   for (auto at = text.begin(); at != text.end();) {
     if (is_separator(*at)) {
       line += *at == '\n' || (*at == '\r' && (at + 1 == text.end() || at[1] != '\n'));
@@ -31,8 +31,8 @@ std::vector<double> read_importance(const std::filesystem::path& path, int face_
     double value = 0;
     const auto [stop, error] = std::from_chars(token.data(), token.data() + token.size(), value);
     if (error != std::errc() || stop != token.data() + token.size() || !std::isfinite(value))
-      refuse(quoted(token) + " is not a number");
-    if (value <= 0) refuse("an importance must be positive, not " + quoted(token));
+      refuse(io::quoted(token) + " is not a number");
+    if (value <= 0) refuse("an importance must be positive, not " + io::quoted(token));
     values.push_back(value);
     if (values.size() > static_cast<std::size_t>(face_count))
       refuse("more numbers than faces, there are " + std::to_string(face_count));

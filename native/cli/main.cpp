@@ -1,4 +1,4 @@
-// The program atlas-refine: OBJ files in, the same files with a better atlas out.
+// The program atlas-refine: mesh files in, the same files with a better atlas out.
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -12,8 +12,8 @@
 #include "collection.h"
 #include "command_line.h"
 #include "importance_file.h"
-#include "input_file.h"
 #include "interrupt.h"
+#include "io/input_file.h"
 #include "output_file.h"
 #include "progress_bar.h"
 #include "report.h"
@@ -99,9 +99,9 @@ std::vector<FileReport> write_outputs(const CommandLine& line, const Collection&
   std::vector<FileReport> reports;
   for (int k = 0; k < files.file_count(); ++k) {
     const Collection::Output output = files.output(k, result);
-    pending.emplace_back(line.output_of(k), output.text);
-    reports.push_back({files.path(k), line.output_of(k), files.file(k).atlas().face_count(), output.added_faces,
-                       static_cast<int>(files.file(k).atlas().positions.size()), output.added_vertices});
+    pending.emplace_back(line.output_of(k), output.bytes);
+    reports.push_back({files.path(k), line.output_of(k), files.atlas_of(k).face_count(), output.added_faces,
+                       static_cast<int>(files.atlas_of(k).positions.size()), output.added_vertices});
   }
   times.write = seconds_since(start);
   if (line.report) pending.emplace_back(*line.report, json_report(line, reports, result, times));
@@ -174,7 +174,7 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const UsageError& error) {
     return complain(error.what(), exit_usage);
-  } catch (const InputError& error) {
+  } catch (const atlas_refine::io::InputError& error) {
     return complain(error.path.string() + ": " + error.what(), exit_bad_input);
   } catch (const OutputError& error) {
     return complain(error.path.string() + ": " + error.what(), exit_usage);

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "input/split_charts.h"
+#include "io/mesh_file.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
-#include "obj_file.h"
 #include "reduce/goal.h"
 #include "reduce/reduce.h"
 #include "repair/re_embed.h"
@@ -46,9 +46,9 @@ struct Charts {
   std::vector<double> scales;  // that were applied
 
   explicit Charts(const std::string& path, double texture_width = 1) {
-    const cli::ObjFile file = cli::ObjFile::read(path);
-    ChartSet set = split_charts(file.atlas());
-    require_no_flips(file.atlas(), set);
+    const auto file = io::read_mesh_file(path);
+    ChartSet set = split_charts(file->atlas());
+    require_no_flips(file->atlas(), set);
     for (Chart& chart : set.charts) {
       for (Vec2& uv : chart.uvs) uv.x() *= texture_width;
     }

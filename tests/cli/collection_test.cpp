@@ -6,7 +6,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "input_file.h"
+#include "io/hand_made_cut.h"
+#include "io/input_file.h"
+#include "io/obj_file.h"
 #include "output_file.h"
 
 namespace atlas_refine::cli {
@@ -54,6 +56,7 @@ class ThreeModels : public Files {
     cut.corner_vertices = {0, 1, 10, 2, 3, 10, 4, 5, 4, 6, 11, 4, 11, 5, 7, 8, 9};
     cut.face_sources = {0, 1, 2, 2, 3};
     cut.new_vertices = {{{1, 2, 0}, Vec3(0.5, 0.5, 0)}, {{7, 8, 6}, Vec3(0.25, 0.75, 0)}};
+    io::add_corner_means(cut, collection_.atlas());
     for (int c = 0; c < 17; ++c) result.corner_uvs.emplace_back(c, -c);
     return result;
   }
@@ -77,10 +80,10 @@ TEST_F(ThreeModels, AFaceIsNamedByFileAndLine) {
 TEST_F(ThreeModels, EachFileGetsItsPartOfTheCut) {
   const RefineResult result = cut_result();
   const Collection::Output a = collection_.output(0, result), b = collection_.output(1, result);
-  EXPECT_EQ(a.text, "# a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 -1\nvt 3 -3\nv 0.5 0.5 0\nvt 2 -2\nf 1/1 2/2 4/4 3/3\n");
+  EXPECT_EQ(a.bytes, "# a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 -1\nvt 3 -3\nv 0.5 0.5 0\nvt 2 -2\nf 1/1 2/2 4/4 3/3\n");
   EXPECT_EQ(a.added_faces, 0);
   EXPECT_EQ(a.added_vertices, 1);
-  const Atlas again = ObjFile::parse(b.text).atlas();
+  const Atlas again = io::ObjFile::parse(b.bytes).atlas();
   EXPECT_EQ(again.face_offsets, (std::vector<int>{0, 4, 7, 10}));
   EXPECT_EQ(again.corner_vertices, (std::vector<int>{0, 4, 1, 2, 1, 3, 5, 1, 5, 2}));
   EXPECT_EQ(again.corner_uvs, std::vector<Vec2>(result.corner_uvs.begin() + 4, result.corner_uvs.begin() + 14));
@@ -92,7 +95,7 @@ TEST_F(ThreeModels, EachFileGetsItsPartOfTheCut) {
 
 TEST_F(ThreeModels, AFileThatNoCutCrossesKeepsAllButItsUvs) {
   const Collection::Output c = collection_.output(2, cut_result());
-  EXPECT_EQ(c.text, "v 0 0 9\nv 1 0 9\nv 0 1 9\nvt 14 -14\nvt 15 -15\nvt 16 -16\nf -3/-3 -2/-2 -1/-1\n");
+  EXPECT_EQ(c.bytes, "v 0 0 9\nv 1 0 9\nv 0 1 9\nvt 14 -14\nvt 15 -15\nvt 16 -16\nf -3/-3 -2/-2 -1/-1\n");
   EXPECT_EQ(c.added_faces + c.added_vertices, 0);
 }
 
@@ -101,7 +104,7 @@ TEST_F(ThreeModels, AFileThatCannotBeUsedIsNamed) {
   try {
     collection_.add(bad);
     FAIL() << "no UVs";
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     EXPECT_EQ(error.path, bad);
   }
   EXPECT_EQ(collection_.file_count(), 3);

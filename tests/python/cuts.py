@@ -35,11 +35,15 @@ class Cutter:
         faces = [
             (source, self._with_edge_points(piece), k) for source, row in enumerate(self.pieces) for k, piece in enumerate(row)
         ]
-        uvs = [self._uv(source, vertex) + [k * shift, 0.0] for source, piece, k in faces for vertex in piece]
+        means = [self._mean(source, vertex) for source, piece, _ in faces for vertex in piece]
+        shifts = [k * shift for _, piece, k in faces for _ in piece]
+        uvs = [np.dot(weights, self.uvs[sources]) + [by, 0.0] for (sources, weights), by in zip(means, shifts, strict=True)]
         cut = SimpleNamespace(
             face_offsets=np.cumsum([0] + [len(piece) for _, piece, _ in faces]).astype(np.int32),
             corner_vertices=np.array([vertex for _, piece, _ in faces for vertex in piece], dtype=np.int32),
             face_sources=np.array([source for source, _, _ in faces], dtype=np.int32),
+            corner_sources=np.array([sources for sources, _ in means], dtype=np.int32),
+            corner_weights=np.array([weights for _, weights in means]),
             new_vertex_corners=np.array(self.new_corners, dtype=np.int32).reshape(-1, 3),
             new_vertex_weights=np.array(self.new_weights, dtype=np.float64).reshape(-1, 3),
             new_seams=np.array(self._final_seams(faces), dtype=np.int32).reshape(-1, 2),
@@ -123,12 +127,13 @@ class Cutter:
         chains = [[a, *self._between(a, b), b] for a, b in self.seams]
         return sorted(tuple(sorted(pair)) for chain in chains for pair in itertools.pairwise(chain) if frozenset(pair) in edges)
 
-    def _uv(self, face, vertex):
-        begin, end = self.offsets[face], self.offsets[face + 1]
-        for corner in range(begin, end):
-            if self.corners[corner] == vertex:
-                return self.uvs[corner]
+    def _mean(self, face, vertex):
+        """(corners of the face, weights) whose mean the vertex is."""
+        here = {self.corners[corner]: corner for corner in range(self.offsets[face], self.offsets[face + 1])}
+        if vertex < len(self.positions):
+            return [here[vertex]] * 3, [1.0, 0.0, 0.0]
         new = vertex - len(self.positions)
-        here = {self.corners[corner]: corner for corner in range(begin, end)}
-        pairs = zip(self.new_corners[new], self.new_weights[new], strict=True)
-        return sum(weight * self.uvs[here[self.corners[corner]]] for corner, weight in pairs if weight > 0)
+        weights = self.new_weights[new]
+        heaviest = self.new_corners[new][np.argmax(weights)]
+        sources = [corner if weight > 0 else heaviest for corner, weight in zip(self.new_corners[new], weights, strict=True)]
+        return [here[self.corners[corner]] for corner in sources], weights

@@ -51,7 +51,7 @@ def test_several_points_of_one_edge_are_sorted_from_its_smaller_end():
         (3, 4, [0.25, 0.5, 0.75]),
     ]
     assert plan.atlas.positions[plan.edge_splits[0].vertices, 0].tolist() == [0.25, 0.5, 0.75]
-    cut.new_vertex_weights[:] = [0.5, 0.5, 0.0]
+    cut.corner_weights[cut.corner_vertices >= len(arrays[0])] = [0.5, 0.5, 0.0]
     with pytest.raises(ValueError, match="coincide"):
         plan_cut(as_blender_stores(arrays), cut, uvs)
 
@@ -78,7 +78,7 @@ def test_two_faces_read_a_shared_point_to_the_same_bits():
         assert len({mean[corner].tobytes() for corner in np.flatnonzero(cut.corner_vertices == vertex)}) == 1
 
 
-def test_doubled_vertices_are_found_by_their_position():
+def test_new_vertices_between_doubled_vertices_are_doubled():
     positions, offsets, corners, uvs = shapes.join(shapes.grid(2, 1))
     cut, cut_uvs = Cutter(positions, offsets, corners, uvs).cut(1, 0.5).result()
     doubled = np.concatenate([positions, positions[[1, 4]]])
@@ -116,6 +116,8 @@ def test_a_seam_beside_doubled_vertices_is_each_edge_at_its_place():
         face_offsets=offsets.astype(np.int32),
         corner_vertices=corners.astype(np.int32),
         face_sources=np.array([0, 1], dtype=np.int32),
+        corner_sources=np.repeat(np.arange(8, dtype=np.int32)[:, None], 3, axis=1),
+        corner_weights=np.tile([1.0, 0.0, 0.0], (8, 1)),
         new_vertex_corners=np.zeros((0, 3), dtype=np.int32),
         new_vertex_weights=np.zeros((0, 3)),
         new_seams=np.array([[1, 4], [1, 2]], dtype=np.int32),  # the latter is 6 to 2 in its only face
@@ -159,9 +161,14 @@ def test_faces_that_start_elsewhere_are_the_same():
         ("corner_vertices", lambda a: np.concatenate([a[:1], a[:1], a[2:]]), "twice"),
         ("new_seams", lambda a: a - 10**6, "vertices"),
         ("new_seams", lambda a: a * 0 + [0, 19], "new seam"),
-        ("new_vertex_corners", lambda a: a + 10**6, "new vertices"),
-        ("new_vertex_corners", lambda a: (a + 4) % 48, "outside"),
-        ("new_vertex_weights", lambda a: a * 0 + [1.0, 0.0, 0.0], "old one"),
+        ("new_vertex_corners", lambda a: a[:-1], "vertices"),
+        ("corner_sources", lambda a: a + 10**6, "outside"),
+        ("corner_sources", lambda a: (a + 4) % 48, "outside"),
+        ("corner_sources", lambda a: np.concatenate([a[1:4], a[:1], a[4:]]), "not where its vertex is"),
+        ("corner_sources", lambda a: a[:-1], "sources"),
+        ("corner_weights", lambda a: a * 0 + [1.0, 0.0, 0.0], "old one"),
+        ("corner_weights", lambda a: a * 0.5, "weights"),
+        ("corner_weights", lambda a: a * [-1.0, 1.0, 1.0], "weights"),
     ],
 )
 def test_what_does_not_fit_is_refused(field, change, word):

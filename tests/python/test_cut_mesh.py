@@ -37,10 +37,11 @@ def test_the_bound_is_met_and_the_arrays_fit_together():
     mesh = result.cut
     assert result.intervention == "cut"
     assert {array.dtype for array in (mesh.face_offsets, mesh.corner_vertices, mesh.face_sources)} == {np.dtype(np.int32)}
-    assert {array.dtype for array in (mesh.new_vertex_corners, mesh.new_seams)} == {np.dtype(np.int32)}
-    assert mesh.new_vertex_weights.dtype == np.float64
+    assert {array.dtype for array in (mesh.corner_sources, mesh.new_vertex_corners, mesh.new_seams)} == {np.dtype(np.int32)}
+    assert mesh.corner_weights.dtype == mesh.new_vertex_weights.dtype == np.float64
     assert mesh.face_offsets.shape == (len(mesh.face_sources) + 1,)
     assert mesh.face_offsets[-1] == len(mesh.corner_vertices) == len(result.corner_uvs)
+    assert mesh.corner_sources.shape == mesh.corner_weights.shape == (len(mesh.corner_vertices), 3)
     assert mesh.new_vertex_corners.shape == mesh.new_vertex_weights.shape == (len(mesh.new_vertex_corners), 3)
     assert mesh.new_seams.shape[1] == 2
     assert len(mesh.new_seams) > 0
@@ -63,6 +64,21 @@ def test_new_vertices_lie_on_their_faces_and_pieces_tile_them():
     assert pieces.min() > 0
     tiled = np.bincount(mesh.face_sources, weights=pieces)
     assert tiled == pytest.approx(face_areas(arrays[0], arrays[1], arrays[2]), abs=1e-9)
+
+
+def test_corners_are_means_of_corners_of_their_own_face():
+    arrays, result = cut()
+    mesh = result.cut
+    faces = np.repeat(mesh.face_sources, np.diff(mesh.face_offsets))[:, None]
+    assert np.all((mesh.corner_sources >= arrays[1][faces]) & (mesh.corner_sources < arrays[1][faces + 1]))
+    assert mesh.corner_weights.min() >= 0
+    assert mesh.corner_weights.sum(axis=1) == pytest.approx(1.0, abs=1e-12)
+    means = np.einsum("ck,ckd->cd", mesh.corner_weights, arrays[0][arrays[2][mesh.corner_sources]])
+    assert means == pytest.approx(new_positions(arrays, mesh)[mesh.corner_vertices], abs=1e-12)
+    old = mesh.corner_vertices < len(arrays[0])
+    assert np.all(mesh.corner_weights[old] == [1.0, 0.0, 0.0])
+    assert np.array_equal(arrays[2][mesh.corner_sources[old]], np.repeat(mesh.corner_vertices[old][:, None], 3, axis=1))
+    assert not np.all(old)
 
 
 def test_a_result_outlives_its_arrays_and_shows_its_figures():

@@ -52,6 +52,76 @@ TEST(CutFaces, CornersSourcesAndWeightsFitTogether) {
   }
 }
 
+/// Every corner of the cut is a mean of corners of the input face that its own face is part of; returns how many are new.
+int expect_corner_means(const Atlas& atlas, const CutFaces& out) {
+  const CutMesh& mesh = out.mesh;
+  EXPECT_EQ(mesh.corner_sources.size(), mesh.corner_vertices.size());
+  EXPECT_EQ(mesh.corner_weights.size(), mesh.corner_vertices.size());
+  int new_corners = 0;
+  for (std::size_t f = 0; f < mesh.face_sources.size(); ++f) {
+    for (int c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c) {
+      const Vec3& weights = mesh.corner_weights[c];
+      EXPECT_GE(weights.minCoeff(), 0);
+      EXPECT_NEAR(weights.sum(), 1, 1e-12);
+      int heaviest = 0;
+      weights.maxCoeff(&heaviest);
+      Vec3 there = Vec3::Zero();
+      for (int k = 0; k < 3; ++k) {
+        const int source = mesh.corner_sources[c][k];
+        EXPECT_GE(source, atlas.face_offsets[mesh.face_sources[f]]);
+        EXPECT_LT(source, atlas.face_offsets[mesh.face_sources[f] + 1]);
+        if (weights[k] == 0) EXPECT_EQ(source, mesh.corner_sources[c][heaviest]);
+        there += weights[k] * atlas.positions[atlas.corner_vertices[source]];
+      }
+      EXPECT_EQ(there, out.positions[mesh.corner_vertices[c]]) << "faces of one vertex must agree to the last bit";
+      if (mesh.corner_vertices[c] < static_cast<int>(atlas.positions.size())) {
+        EXPECT_EQ(weights, Vec3(1, 0, 0));
+        EXPECT_EQ(atlas.corner_vertices[mesh.corner_sources[c][0]], mesh.corner_vertices[c]);
+      } else {
+        ++new_corners;
+      }
+    }
+  }
+  return new_corners;
+}
+
+/// The atlas with a vertex for each corner, as exporters of normals write it.
+Atlas with_doubled_vertices(const Atlas& atlas) {
+  Atlas out = atlas;
+  out.positions.clear();
+  for (int c = 0; c < atlas.corner_count(); ++c) {
+    out.positions.push_back(atlas.positions[atlas.corner_vertices[c]]);
+    out.corner_vertices[c] = c;
+  }
+  return out;
+}
+
+/// The atlas with every third face wound the other way.
+Atlas with_mixed_winding(const Atlas& atlas) {
+  Atlas out = atlas;
+  for (int f = 0; f < atlas.face_count(); f += 3) {
+    std::reverse(out.corner_vertices.begin() + atlas.face_offsets[f], out.corner_vertices.begin() + atlas.face_offsets[f + 1]);
+    std::reverse(out.corner_uvs.begin() + atlas.face_offsets[f], out.corner_uvs.begin() + atlas.face_offsets[f + 1]);
+  }
+  return out;
+}
+
+TEST(CutFaces, CornersAreMeansOfCornersOfTheirOwnFace) {
+  for (const Atlas& atlas : testing::many_atlases()) {
+    Laid laid = testing::laid(atlas);
+    EXPECT_GT(expect_corner_means(atlas, faces_of(laid)), 0);
+    for (Piece& piece : laid.cut.pieces) restore_faces(piece, laid.set.charts[piece.chart], 1);
+    expect_corner_means(atlas, faces_of(laid));
+  }
+}
+
+TEST(CutFaces, CornersAreMeansOfCornersOfTheirOwnFaceAlsoWhereVerticesAreDoubledOrFacesTurned) {
+  for (const Atlas& atlas : {shapes::mesh(shapes::c_shape(), 0.12), testing::open_box(5)}) {
+    for (const Atlas& other : {with_doubled_vertices(atlas), with_mixed_winding(atlas)})
+      EXPECT_GT(expect_corner_means(other, faces_of(testing::laid(other))), 0);
+  }
+}
+
 TEST(CutFaces, FacesKeepAreaAndWindingInSpace) {
   for (const Atlas& atlas : testing::many_atlases()) {
     const CutFaces out = faces_of(testing::laid(atlas));

@@ -106,6 +106,12 @@ class CutMesh:
     @property
     def face_sources(self) -> NDArray[np.int32]: ...  # (F',), not decreasing: the input face that each face is part of
     @property
+    def corner_sources(self) -> NDArray[np.int32]: ...
+    # (C', 3): input corners of that face, whose mean the corner is; one that was the input's has itself three times
+    @property
+    def corner_weights(self) -> NDArray[np.float64]: ...
+    # (C', 3): >= 0, sum 1; sources of weight 0 repeat the heaviest
+    @property
     def new_vertex_corners(self) -> NDArray[np.int32]: ...  # (N, 3): input corners, all of one face
     @property
     def new_vertex_weights(self) -> NDArray[np.float64]: ...  # (N, 3): >= 0, sum 1; the third is 0 on an edge of the face

@@ -2,16 +2,64 @@
 #include "report/cut_faces.h"
 
 #include <algorithm>
+#include <cassert>
 #include <map>
+#include <optional>
 
 namespace atlas_refine {
 namespace {
+
+/// What the faces are made from.
+struct Sources {
+  const Atlas& atlas;
+  const ChartSet& set;
+  const CutAtlas& cut;
+
+  int begin(int face) const { return atlas.face_offsets[face]; }
+  int end(int face) const { return atlas.face_offsets[face + 1]; }
+  const Vec3& position(int corner) const { return atlas.positions[atlas.corner_vertices[corner]]; }
+  /// The corner of a face that is this vertex of its chart, -1 where it has none.
+  int corner_of(int face, int vertex) const {
+    for (int c = begin(face); c < end(face); ++c) {
+      if (set.corners[c].vertex == vertex) return c;
+    }
+    return -1;
+  }
+};
 
 /// Triangles of one face in one piece.
 struct FacePart {
   int piece;
   std::vector<int> triangles;
 };
+
+/// Of each face.
+std::vector<std::vector<FacePart>> parts_of_faces(const Sources& in) {
+  std::vector<std::vector<FacePart>> out(in.atlas.face_count());
+  for (int p = 0; p < static_cast<int>(in.cut.pieces.size()); ++p) {
+    const std::vector<int>& faces = in.cut.pieces[p].mesh.triangle_faces;
+    for (int t = 0; t < static_cast<int>(faces.size()); ++t) {
+      std::vector<FacePart>& parts = out[faces[t]];
+      if (parts.empty() || parts.back().piece != p) parts.push_back({p, {}});
+      parts.back().triangles.push_back(t);
+    }
+  }
+  return out;
+}
+
+/// True where the chart has the face wound against the input.
+bool is_turned(const Sources& in, int face) {
+  const int begin = in.begin(face), count = in.end(face) - begin;
+  const Chart& chart = in.set.charts[in.set.corners[begin].chart];
+  // Triangles of a chart are ordered by their face.
+  const std::vector<int>& faces = chart.triangle_faces;
+  const auto triangle = std::lower_bound(faces.begin(), faces.end(), face) - faces.begin();
+  std::array<int, 3> at{};
+  for (int k = 0; k < 3; ++k) at[k] = in.corner_of(face, chart.triangles[triangle][k]) - begin;
+  int around = 0;
+  for (int k = 0; k < 3; ++k) around += ((at[(k + 1) % 3] - at[k]) % count + count) % count;
+  return around > count;
+}
 
 /// The one loop around the triangles, empty where there are several or some vertex lies inside.
 std::vector<int> outline_of(const Chart& mesh, const std::vector<int>& triangles) {
@@ -34,157 +82,171 @@ std::vector<int> outline_of(const Chart& mesh, const std::vector<int>& triangles
   return loop.size() == next.size() ? loop : std::vector<int>();
 }
 
-class FaceBuilder {
- public:
-  FaceBuilder(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut) : atlas_(atlas), set_(set), cut_(cut) {
-    out_.positions = atlas.positions;
-    out_.mesh.face_offsets = {0};
-    number_points();
-    parts_.resize(atlas.face_count());
-    for (int p = 0; p < static_cast<int>(cut.pieces.size()); ++p) {
-      const Chart& mesh = cut.pieces[p].mesh;
-      for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-        auto& parts = parts_[mesh.triangle_faces[t]];
-        if (parts.empty() || parts.back().piece != p) parts.push_back({p, {}});
-        parts.back().triangles.push_back(t);
-      }
-    }
-  }
+/// The outlines of what the part of a face becomes, wound as in the chart.
+std::vector<std::vector<int>> outlines_of(const Chart& mesh, const FacePart& part, bool divide) {
+  if (std::vector<int> outline = outline_of(mesh, part.triangles); !divide && !outline.empty()) return {std::move(outline)};
+  std::vector<std::vector<int>> out;
+  for (int t : part.triangles) out.emplace_back(mesh.triangles[t].begin(), mesh.triangles[t].end());
+  return out;
+}
 
-  CutFaces run() {
-    for (int f = 0; f < atlas_.face_count(); ++f) {
-      locate_points(f);
-      const bool turned = is_turned(f);
-      for (const FacePart& part : parts_[f]) {
-        const Chart& mesh = cut_.pieces[part.piece].mesh;
-        // A triangle with a corner in the middle of a side would be a polygon that other tools may lay flat: it is divided.
-        const std::vector<int> outline = outline_of(mesh, part.triangles);
-        const bool triangle = atlas_.face_offsets[f + 1] - atlas_.face_offsets[f] == 3;
-        if (!outline.empty() && !triangle) {
-          add_face(f, part.piece, outline, turned);
-          continue;
-        }
-        for (int t : part.triangles) add_face(f, part.piece, {mesh.triangles[t].begin(), mesh.triangles[t].end()}, turned);
-      }
-    }
-    for (const Seam& seam : cut_.seams) {
-      const auto vertex = [&](int end) { return end < 0 ? vertex_of_point(~end) : vertex_of_chart_[{seam.chart, end}]; };
-      out_.mesh.new_seams.push_back({vertex(seam.ends[0]), vertex(seam.ends[1])});
-    }
-    return std::move(out_);
-  }
-
- private:
-  /// The corner of a face that is this vertex of its chart, -1 where it has none.
-  int corner_of(int face, int vertex) const {
-    for (int c = atlas_.face_offsets[face]; c < atlas_.face_offsets[face + 1]; ++c) {
-      if (set_.corners[c].vertex == vertex) return c;
-    }
-    return -1;
-  }
-
-  /// Points that no piece uses any more get no vertex.
-  void number_points() {
-    index_.assign(cut_.points.size(), -1);
-    int count = 0;
-    for (const Piece& piece : cut_.pieces) {
-      for (int point : piece.points) {
-        if (point >= 0 && index_[point] < 0) index_[point] = count++;
-      }
-    }
-    out_.mesh.new_vertices.resize(count);
-    out_.positions.resize(atlas_.positions.size() + count);
-    located_.assign(count, 0);
-  }
-  int vertex_of_point(int point) const { return static_cast<int>(atlas_.positions.size()) + index_[point]; }
-
-  /// New points get their corners and positions from the first face that has them.
-  void locate_points(int face) {
-    for (const FacePart& part : parts_[face]) {
-      const Piece& piece = cut_.pieces[part.piece];
-      for (int t : part.triangles) {
-        for (int v : piece.mesh.triangles[t]) {
-          if (piece.points[v] >= 0 && cut_.points[piece.points[v]].chart == piece.chart) locate_point(face, piece.points[v]);
-        }
-      }
-    }
-  }
-  void locate_point(int face, int point) {
-    const int index = index_[point];
-    NewVertex& vertex = out_.mesh.new_vertices[index];
-    if (located_[index]) return;
-    const Support& support = cut_.points[point].support;
-    vertex.weights = Vec3::Zero();
-    Vec3 position = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) {
-      const int corner = support.vertices[k] >= 0 ? corner_of(face, support.vertices[k]) : -1;
-      if (support.vertices[k] >= 0 && corner < 0) return;  // another face's
-      vertex.corners[k] = corner;
-      vertex.weights[k] = corner >= 0 ? support.weights[k] : 0;
-      if (corner >= 0) position += support.weights[k] * atlas_.positions[atlas_.corner_vertices[corner]];
-    }
-    for (int c = atlas_.face_offsets[face]; vertex.corners[2] < 0; ++c) {
-      if (c != vertex.corners[0] && c != vertex.corners[1]) vertex.corners[2] = c;
-    }
-    located_[index] = 1;
-    out_.positions[vertex_of_point(point)] = position;
-  }
-
-  /// True where the chart has the face wound against the input.
-  bool is_turned(int face) const {
-    const int begin = atlas_.face_offsets[face], count = atlas_.face_offsets[face + 1] - begin;
-    const Chart& chart = set_.charts[set_.corners[begin].chart];
-    const int triangle = first_triangle(face);
-    std::array<int, 3> at{};
-    for (int k = 0; k < 3; ++k) at[k] = corner_of(face, chart.triangles[triangle][k]) - begin;
-    int around = 0;
-    for (int k = 0; k < 3; ++k) around += ((at[(k + 1) % 3] - at[k]) % count + count) % count;
-    return around > count;
-  }
-  /// Triangles of a chart are ordered by their face.
-  int first_triangle(int face) const {
-    const std::vector<int>& faces = set_.charts[set_.corners[atlas_.face_offsets[face]].chart].triangle_faces;
-    return static_cast<int>(std::lower_bound(faces.begin(), faces.end(), face) - faces.begin());
-  }
-
-  void add_face(int face, int piece, std::vector<int> outline, bool turned) {
-    if (turned) std::reverse(outline.begin(), outline.end());
-    const Piece& p = cut_.pieces[piece];
-    // Start where the face started.
-    std::size_t start = 0;
-    int lowest = atlas_.corner_count();
-    std::vector<int> corners;
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-      corners.push_back(p.vertices[outline[k]] >= 0 ? corner_of(face, p.vertices[outline[k]]) : -1);
-      if (corners[k] < 0 || corners[k] >= lowest) continue;
-      lowest = corners[k];
-      start = k;
-    }
-    std::rotate(outline.begin(), outline.begin() + start, outline.end());
-    std::rotate(corners.begin(), corners.begin() + start, corners.end());
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-      const int v = outline[k];
-      const int vertex = corners[k] >= 0 ? atlas_.corner_vertices[corners[k]] : vertex_of_point(p.points[v]);
-      if (corners[k] >= 0) vertex_of_chart_[{p.chart, p.vertices[v]}] = vertex;
-      out_.mesh.corner_vertices.push_back(vertex);
-      out_.corners.push_back({piece, v});
-    }
-    out_.mesh.face_offsets.push_back(static_cast<int>(out_.corners.size()));
-    out_.mesh.face_sources.push_back(face);
-  }
-
-  const Atlas& atlas_;
-  const ChartSet& set_;
-  const CutAtlas& cut_;
-  CutFaces out_;
-  std::vector<std::vector<FacePart>> parts_;
-  std::vector<int> index_;  // of each point among the new vertices
-  std::vector<char> located_;
-  std::map<std::pair<int, int>, int> vertex_of_chart_;  // (chart, vertex) -> input vertex
+/// The points that pieces use.
+struct UsedPoints {
+  std::vector<int> index;  ///< of each point among `vertices`, -1 where no piece uses it any more
+  std::vector<NewVertex> vertices;
 };
+
+/// A point as corners of one face of its own chart; nothing where the face is another one.
+std::optional<NewVertex> point_on_face(const Sources& in, int face, const Support& support) {
+  NewVertex vertex{{-1, -1, -1}, Vec3::Zero()};
+  for (int k = 0; k < 3 && support.vertices[k] >= 0; ++k) {
+    vertex.corners[k] = in.corner_of(face, support.vertices[k]);
+    vertex.weights[k] = support.weights[k];
+    if (vertex.corners[k] < 0) return {};
+  }
+  for (int c = in.begin(face); vertex.corners[2] < 0; ++c) {
+    if (c != vertex.corners[0] && c != vertex.corners[1]) vertex.corners[2] = c;
+  }
+  return vertex;
+}
+
+/// Each point gets its corners from the first face that has it.
+UsedPoints used_points(const Sources& in, const std::vector<std::vector<FacePart>>& parts) {
+  UsedPoints out{std::vector<int>(in.cut.points.size(), -1), {}};
+  int count = 0;
+  for (const Piece& piece : in.cut.pieces) {
+    for (int point : piece.points) {
+      if (point >= 0 && out.index[point] < 0) out.index[point] = count++;
+    }
+  }
+  std::vector<std::optional<NewVertex>> found(count);
+  const auto locate = [&](int face, const Piece& piece, int point) {
+    if (point < 0 || found[out.index[point]] || in.cut.points[point].chart != piece.chart) return;
+    found[out.index[point]] = point_on_face(in, face, in.cut.points[point].support);
+  };
+  for (int f = 0; f < in.atlas.face_count(); ++f) {
+    for (const FacePart& part : parts[f]) {
+      const Piece& piece = in.cut.pieces[part.piece];
+      for (int t : part.triangles) {
+        for (int v : piece.mesh.triangles[t]) locate(f, piece, piece.points[v]);
+      }
+    }
+  }
+  for (const auto& vertex : found) out.vertices.push_back(vertex.value());
+  return out;
+}
+
+/// A corner of the output as a mean of corners of one input face.
+struct CornerMean {
+  std::array<int, 3> sources;
+  Vec3 weights;
+};
+
+/// The corner of `face` at the position of `corner`, which may be another face's, among those that support a vertex of the face;
+/// of several at one position that in place k. Vertices may be doubled, so positions tell.
+int same_corner(const Sources& in, int face, const Support& support, int corner, int k) {
+  for (int place : {k, 0, 1, 2}) {
+    if (support.vertices[place] < 0) continue;
+    const int own = in.corner_of(face, support.vertices[place]);
+    if (own >= 0 && in.position(own) == in.position(corner)) return own;
+  }
+  assert(!"a new vertex is not a point of its face");
+  return -1;
+}
+
+/// A new vertex seen from `face`, which has it inside or on an edge; `support` says where it lies on the face's own chart. The
+/// vertex's weights hold for all of its faces: its position is the same in each, to the last bit.
+CornerMean mean_on_face(const Sources& in, int face, const Support& support, const NewVertex& vertex) {
+  int heaviest = 0;
+  vertex.weights.maxCoeff(&heaviest);
+  CornerMean out{{}, vertex.weights};
+  out.sources.fill(same_corner(in, face, support, vertex.corners[heaviest], heaviest));
+  for (int k = 0; k < 3; ++k) {
+    if (vertex.weights[k] > 0 && k != heaviest) out.sources[k] = same_corner(in, face, support, vertex.corners[k], k);
+  }
+  return out;
+}
+
+/// Starts a face where the input's face starts: at the lowest of its corners that the outline has.
+void start_at_lowest_corner(const Sources& in, int face, const Piece& piece, std::vector<int>& outline) {
+  auto start = outline.begin();
+  int lowest = in.end(face);
+  for (auto v = outline.begin(); v != outline.end(); ++v) {
+    const int corner = piece.vertices[*v] >= 0 ? in.corner_of(face, piece.vertices[*v]) : -1;
+    if (corner < 0 || corner >= lowest) continue;
+    lowest = corner;
+    start = v;
+  }
+  std::rotate(outline.begin(), start, outline.end());
+}
+
+void add_face(const Sources& in, const UsedPoints& points, int face, int piece, const std::vector<int>& outline, CutFaces& out) {
+  const Piece& p = in.cut.pieces[piece];
+  for (int v : outline) {
+    const int corner = p.vertices[v] >= 0 ? in.corner_of(face, p.vertices[v]) : -1;
+    const int index = corner >= 0 ? -1 : points.index[p.points[v]];
+    const CornerMean mean = corner >= 0 ? CornerMean{{corner, corner, corner}, Vec3(1, 0, 0)}
+                                        : mean_on_face(in, face, p.supports[v], points.vertices[index]);
+    out.mesh.corner_vertices.push_back(corner >= 0 ? in.atlas.corner_vertices[corner]
+                                                   : static_cast<int>(in.atlas.positions.size()) + index);
+    out.mesh.corner_sources.push_back(mean.sources);
+    out.mesh.corner_weights.push_back(mean.weights);
+    out.corners.push_back({piece, v});
+  }
+  out.mesh.face_offsets.push_back(static_cast<int>(out.corners.size()));
+  out.mesh.face_sources.push_back(face);
+}
+
+std::vector<Vec3> positions_with(const Sources& in, const std::vector<NewVertex>& vertices) {
+  std::vector<Vec3> out = in.atlas.positions;
+  for (const NewVertex& vertex : vertices) {
+    Vec3 position = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) position += vertex.weights[k] * in.position(vertex.corners[k]);
+    out.push_back(position);
+  }
+  return out;
+}
+
+std::vector<std::array<int, 2>> seams_of(const Sources& in, const UsedPoints& points) {
+  std::vector<std::vector<int>> vertex_of_chart;  // the input's, of each chart's vertex
+  for (const Chart& chart : in.set.charts) vertex_of_chart.emplace_back(chart.vertex_count(), -1);
+  for (int c = 0; c < in.atlas.corner_count(); ++c)
+    vertex_of_chart[in.set.corners[c].chart][in.set.corners[c].vertex] = in.atlas.corner_vertices[c];
+  std::vector<std::array<int, 2>> out;
+  for (const Seam& seam : in.cut.seams) {
+    const auto vertex = [&](int end) {
+      return end < 0 ? static_cast<int>(in.atlas.positions.size()) + points.index[~end] : vertex_of_chart[seam.chart][end];
+    };
+    out.push_back({vertex(seam.ends[0]), vertex(seam.ends[1])});
+  }
+  return out;
+}
 
 }  // namespace
 
-CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut) { return FaceBuilder(atlas, set, cut).run(); }
+CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut) {
+  const Sources in{atlas, set, cut};
+  const std::vector<std::vector<FacePart>> parts = parts_of_faces(in);
+  UsedPoints points = used_points(in, parts);
+  CutFaces out;
+  out.mesh.face_offsets = {0};
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    const bool turned = is_turned(in, f);
+    // A triangle with a corner in the middle of a side would be a polygon that other tools may lay flat: it is divided.
+    const bool triangle = in.end(f) - in.begin(f) == 3;
+    for (const FacePart& part : parts[f]) {
+      const Piece& piece = cut.pieces[part.piece];
+      for (std::vector<int>& outline : outlines_of(piece.mesh, part, triangle)) {
+        if (turned) std::reverse(outline.begin(), outline.end());
+        start_at_lowest_corner(in, f, piece, outline);
+        add_face(in, points, f, part.piece, outline, out);
+      }
+    }
+  }
+  out.positions = positions_with(in, points.vertices);
+  out.mesh.new_seams = seams_of(in, points);
+  out.mesh.new_vertices = std::move(points.vertices);
+  return out;
+}
 
 }  // namespace atlas_refine

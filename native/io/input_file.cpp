@@ -1,12 +1,12 @@
 // Files that are read whole; a file that cannot be used is named with the reason.
-#include "input_file.h"
+#include "io/input_file.h"
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <system_error>
 
-namespace atlas_refine::cli {
+namespace atlas_refine::io {
 
 std::string read_text(const std::filesystem::path& path, const char* kind) {
   const auto refuse = [&path](const std::string& what) { throw InputError(path, what); };
@@ -36,4 +36,4 @@ std::string quoted(std::string_view text) {
   return result + (text.size() > 40 ? "...'" : "'");
 }
 
-}  // namespace atlas_refine::cli
+}  // namespace atlas_refine::io

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace atlas_refine::cli {
+namespace atlas_refine::io {
 
 /// A file that cannot be read or used; what() names the reason and, where there is one, the line.
 class InputError : public std::runtime_error {
@@ -20,4 +20,4 @@ std::string read_text(const std::filesystem::path& path, const char* kind);
 /// Text as it may stand in a one-line message: short, printable, in quotes.
 std::string quoted(std::string_view text);
 
-}  // namespace atlas_refine::cli
+}  // namespace atlas_refine::io

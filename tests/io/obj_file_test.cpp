@@ -1,11 +1,11 @@
 // OBJ text in, OBJ text out: only vt records and vt indices change.
-#include "obj_file.h"
+#include "io/obj_file.h"
 
 #include <gtest/gtest.h>
 
 #include "atlas_refine/error.h"
 
-namespace atlas_refine::cli {
+namespace atlas_refine::io {
 namespace {
 
 const std::string two_triangles =
@@ -23,20 +23,20 @@ TEST(ObjFile, ReadsPolygonsAndUvs) {
   EXPECT_EQ(file.atlas().face_offsets, (std::vector<int>{0, 3, 6}));
   EXPECT_EQ(file.atlas().corner_vertices, (std::vector<int>{0, 1, 2, 0, 2, 3}));
   EXPECT_EQ(file.atlas().corner_uvs[5], Vec2(0, 1));
-  EXPECT_EQ(file.line_of_face(1), 14);
+  EXPECT_EQ(file.where(1), "line 14");
 }
 
 TEST(ObjFile, SameUvsGiveTheSameText) {
   const std::string text = "vt .50 1e-0 # c\r\nv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nvt 0.1\r\nvt 0 7\r\nf 1/1 2/2 3/3";
   const ObjFile file = ObjFile::parse(text);
-  EXPECT_EQ(file.text_with_uvs(file.atlas().corner_uvs), text);
+  EXPECT_EQ(file.with_uvs(file.atlas().corner_uvs), text);
 }
 
 TEST(ObjFile, OneValuePerRecordLeavesIndicesAlone) {
   const ObjFile file = ObjFile::parse(two_triangles);
   std::vector<Vec2> uvs = file.atlas().corner_uvs;
   for (Vec2& uv : uvs) uv = uv * 0.1 + Vec2(0.2, 0.3);
-  EXPECT_EQ(file.text_with_uvs(uvs),
+  EXPECT_EQ(file.with_uvs(uvs),
             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
             "vt 0.2 0.3\nvt 0.30000000000000004 0.3 0.5\nvt 0.30000000000000004 0.4\nvt 0.2 0.4\nvt 9 9\n"
             "g a\nf 1/1 2/2 3/3\nl 2/2 3/3 4/5\ng b\nf -4/-5 -2/-3 -1/-2\n");
@@ -45,7 +45,7 @@ TEST(ObjFile, OneValuePerRecordLeavesIndicesAlone) {
 TEST(ObjFile, RecordsThatSeveralValuesNeedAreRepeatedInPlace) {
   const ObjFile file = ObjFile::parse(two_triangles);
   const std::vector<Vec2> uvs = shifted(file.atlas().corner_uvs, 3, 5);
-  const std::string text = file.text_with_uvs(uvs);
+  const std::string text = file.with_uvs(uvs);
   EXPECT_EQ(text,
             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
             "vt 0 0\nvt 5 0\nvt 1 0 0.5\nvt 1 1\nvt 6 1\nvt 5 1\nvt 9 9\n"
@@ -60,9 +60,9 @@ TEST(ObjFile, RepeatedRecordsAreWeldedByValue) {
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0.5 0.5\n"
       "f 1/1 2/1 3/1\nf 1/1 2/1 4/1");
   const std::vector<Vec2> uvs = {{0, 0}, {1, 0}, {0, 1}, {0, 0}, {1, 0}, {0, -1}};
-  const ObjFile again = ObjFile::parse(file.text_with_uvs(uvs));
-  EXPECT_EQ(again.atlas().corner_uvs, uvs);
-  EXPECT_EQ(again.text().find("vt 0 0\n"), again.text().rfind("vt 0 0\n"));
+  const std::string text = file.with_uvs(uvs);
+  EXPECT_EQ(ObjFile::parse(text).atlas().corner_uvs, uvs);
+  EXPECT_EQ(text.find("vt 0 0\n"), text.rfind("vt 0 0\n"));
 }
 
 TEST(ObjFile, RelativeIndicesFollowRecordsRepeatedBetweenBlocks) {
@@ -71,8 +71,11 @@ TEST(ObjFile, RelativeIndicesFollowRecordsRepeatedBetweenBlocks) {
       "v 0 0 1\nv 1 0 1\nv 0 1 1\nvt 0 2\nvt 1 2\nvt 0 3\nf -3/-3 -2/-2 -1/-1\nf -6/-6 2/2 -1/6\n";
   const ObjFile file = ObjFile::parse(text);
   std::vector<Vec2> uvs = file.atlas().corner_uvs;
-  for (std::size_t c = 0; c < uvs.size(); ++c) uvs[c] += 0.01 * static_cast<double>(c / 3) * Vec2(1, 1);
-  const ObjFile again = ObjFile::parse(file.text_with_uvs(uvs));
+  for (std::size_t c = 0; c < uvs.size(); ++c) {
+    const std::size_t face = c / 3;
+    uvs[c] += 0.01 * static_cast<double>(face) * Vec2(1, 1);
+  }
+  const ObjFile again = ObjFile::parse(file.with_uvs(uvs));
   EXPECT_EQ(again.atlas().corner_uvs, uvs);
   EXPECT_EQ(again.atlas().corner_vertices, file.atlas().corner_vertices);
 }
@@ -80,13 +83,13 @@ TEST(ObjFile, RelativeIndicesFollowRecordsRepeatedBetweenBlocks) {
 TEST(ObjFile, LastRecordWithoutLineEndCanBeRepeated) {
   const ObjFile file = ObjFile::parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/1 3/1\nvt 0 0");
   const std::vector<Vec2> uvs = {{0, 0}, {1, 0}, {0, 1}};
-  EXPECT_EQ(ObjFile::parse(file.text_with_uvs(uvs)).atlas().corner_uvs, uvs);
+  EXPECT_EQ(ObjFile::parse(file.with_uvs(uvs)).atlas().corner_uvs, uvs);
 }
 
 TEST(ObjFile, EveryDoubleReadsBack) {
   const ObjFile file = ObjFile::parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
   const std::vector<Vec2> uvs = {{0.1, 1.0 / 3}, {5e-324, 1.7976931348623157e308}, {-2.2250738585072014e-308, 1e-7}};
-  EXPECT_EQ(ObjFile::parse(file.text_with_uvs(uvs)).atlas().corner_uvs, uvs);
+  EXPECT_EQ(ObjFile::parse(file.with_uvs(uvs)).atlas().corner_uvs, uvs);
 }
 
 TEST(ObjFile, RefusalNamesTheLine) {
@@ -100,4 +103,4 @@ TEST(ObjFile, RefusalNamesTheLine) {
 }
 
 }  // namespace
-}  // namespace atlas_refine::cli
+}  // namespace atlas_refine::io

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <string>
 
-namespace atlas_refine::cli {
+namespace atlas_refine::io {
 
 inline void append_number(std::string& out, double value) {
   char digits[32];
@@ -12,4 +12,4 @@ inline void append_number(std::string& out, double value) {
   out.append(digits, result.ptr);
 }
 
-}  // namespace atlas_refine::cli
+}  // namespace atlas_refine::io

@@ -1,35 +1,36 @@
-// Writes an ObjFile whose faces were divided: f records in parts, new v, vt and vn records, everything else kept.
-#include "obj_cut_writer.h"
+// Writes an OBJ file whose faces were divided: f records in parts, new v, vt and vn records, everything else kept.
+#include "io/obj_cut_writer.h"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "cut_corners.h"
-#include "number_text.h"
+#include "io/number_text.h"
 
-namespace atlas_refine::cli {
+namespace atlas_refine::io {
 
-ObjCutWriter::ObjCutWriter(const ObjFile& file, const CutMesh& cut, const std::vector<Vec2>& corner_uvs)
-    : file_(file), cut_(cut), atlas_(file.atlas_) {
-  if (const std::size_t end = file.text_.find_first_of("\r\n"); end != std::string::npos)
-    line_end_ = file.text_.compare(end, 2, "\r\n") == 0 ? "\r\n" : file.text_.substr(end, 1);
-  find_sources();
+ObjCutWriter::ObjCutWriter(const ObjText& file, const CutMesh& cut, const std::vector<Vec2>& corner_uvs)
+    : file_(file), cut_(cut), atlas_(file.atlas) {
+  if (const std::size_t end = file.text.find_first_of("\r\n"); end != std::string::npos)
+    line_end_ = file.text.compare(end, 2, "\r\n") == 0 ? "\r\n" : file.text.substr(end, 1);
+  find_parts();
   find_uvs(corner_uvs);
   find_normals();
 }
 
-void ObjCutWriter::find_sources() {
-  source_corners_.resize(cut_.corner_vertices.size());
+void ObjCutWriter::find_parts() {
+  if (cut_.corner_sources.size() != cut_.corner_vertices.size() || cut_.corner_weights.size() != cut_.corner_vertices.size())
+    throw std::logic_error("the cut does not say what its corners are means of");
   first_part_.assign(atlas_.face_count() + 1, 0);
-  const auto old_vertices = static_cast<int>(atlas_.positions.size());
   for (std::size_t part = 0; part < cut_.face_sources.size(); ++part) {
     const int face = cut_.face_sources[part];
     ++first_part_[face + 1];
     for (int c = cut_.face_offsets[part]; c < cut_.face_offsets[part + 1]; ++c) {
-      const int vertex = cut_.corner_vertices[c];
-      source_corners_[c] = vertex < old_vertices ? corner_with_vertex(atlas_, face, vertex) : -1;
-      if (vertex < old_vertices && source_corners_[c] < 0)
-        throw std::logic_error("a part of face " + std::to_string(face) + " has a vertex of another face");
+      const auto& sources = cut_.corner_sources[c];
+      const bool of_face = std::all_of(sources.begin(), sources.end(), [&](int source) {
+        return source >= atlas_.face_offsets[face] && source < atlas_.face_offsets[face + 1];
+      });
+      if (!of_face || (!is_new(c) && atlas_.corner_vertices[sources[0]] != cut_.corner_vertices[c]))
+        throw std::logic_error("a part of face " + std::to_string(face) + " has a corner of another face");
     }
   }
   for (int face = 0; face < atlas_.face_count(); ++face) first_part_[face + 1] += first_part_[face];
@@ -37,79 +38,79 @@ void ObjCutWriter::find_sources() {
 
 void ObjCutWriter::find_uvs(const std::vector<Vec2>& corner_uvs) {
   std::vector<int> record_of_corner(atlas_.corner_count());
-  for (const ObjFile::UvReference& reference : file_.uv_references_) {
+  for (const ObjText::UvReference& reference : file_.uv_references) {
     if (reference.corner >= 0) record_of_corner[reference.corner] = reference.record;
   }
-  std::vector<ObjFile::UvUse> uses;
+  std::vector<UvUse> uses;
   uses.reserve(corner_uvs.size());
   for (int c = 0; c < static_cast<int>(corner_uvs.size()); ++c) {
-    const int source = source_corners_[c];
-    const int record = source < 0 ? static_cast<int>(file_.uv_records_.size()) : record_of_corner[source];
+    const int record = is_new(c) ? static_cast<int>(file_.uv_records.size()) : record_of_corner[cut_.corner_sources[c][0]];
     uses.push_back({record, corner_uvs[c], c});
   }
-  uvs_ = file_.weld(std::move(uses));
+  uvs_ = weld(file_, std::move(uses));
 }
 
 void ObjCutWriter::find_normals() {
   normals_.assign(cut_.corner_vertices.size(), -1);
   for (std::size_t part = 0; part < cut_.face_sources.size(); ++part) {
     const int face = cut_.face_sources[part];
-    if (file_.corner_normals_[atlas_.face_offsets[face]] < 0) continue;
+    if (file_.corner_normals[atlas_.face_offsets[face]] < 0) continue;
     for (int c = cut_.face_offsets[part]; c < cut_.face_offsets[part + 1]; ++c)
-      normals_[c] = source_corners_[c] >= 0 ? file_.corner_normals_[source_corners_[c]] : interpolated_normal(c, face);
+      normals_[c] = is_new(c) ? interpolated_normal(c) : file_.corner_normals[cut_.corner_sources[c][0]];
   }
 }
 
 // Where normals cancel or cannot be read, the nearest corner's normal serves.
-int ObjCutWriter::interpolated_normal(int corner, int face) {
-  const int k = cut_.corner_vertices[corner] - static_cast<int>(atlas_.positions.size());
-  const FacePoint point = point_of_face(atlas_, cut_.new_vertices[k], face);
-  const int nearest = file_.corner_normals_[point.nearest()];
+int ObjCutWriter::interpolated_normal(int corner) {
+  const Vec3& weights = cut_.corner_weights[corner];
+  int heaviest = 0;
+  weights.maxCoeff(&heaviest);
+  const int nearest = file_.corner_normals[cut_.corner_sources[corner][heaviest]];
   Vec3 sum = Vec3::Zero();
   bool all_equal = true;
   for (int i = 0; i < 3; ++i) {
-    if (point.weights[i] == 0) continue;
-    const int normal = file_.corner_normals_[point.corners[i]];
+    if (weights[i] == 0) continue;
+    const int normal = file_.corner_normals[cut_.corner_sources[corner][i]];
     all_equal = all_equal && normal == nearest;
-    sum += point.weights[i] * file_.normal_records_[normal].value;
+    sum += weights[i] * file_.normal_records[normal].value;
   }
   const double length = sum.norm();
   if (all_equal || !(length > 0) || !std::isfinite(length)) return nearest;
   sum /= length;
-  const auto next = static_cast<int>(file_.normal_records_.size() + new_normals_.size());
+  const auto next = static_cast<int>(file_.normal_records.size() + new_normals_.size());
   const auto [place, is_new] = index_of_normal_.try_emplace({sum.x(), sum.y(), sum.z()}, next);
   if (is_new) new_normals_.push_back(sum);
   return place->second;
 }
 
 std::string ObjCutWriter::text() {
-  out_.reserve(2 * file_.text_.size());
+  out_.reserve(2 * file_.text.size());
   std::size_t copied = 0;
   for (const Edit& edit : edits()) {
-    out_.append(file_.text_, copied, edit.span.begin - copied);
+    out_.append(file_.text, copied, edit.span.begin - copied);
     write(edit);
     copied = edit.span.end;
   }
-  return out_.append(file_.text_, copied);
+  return out_.append(file_.text, copied);
 }
 
 std::vector<ObjCutWriter::Edit> ObjCutWriter::edits() const {
   std::vector<Edit> result;
-  for (const auto& record : file_.position_records_) {
+  for (const auto& record : file_.position_records) {
     if (stands_behind_first_face(record.whole)) result.push_back({record.whole, Edit::Kind::Drop});
   }
-  for (const auto& record : file_.normal_records_) {
+  for (const auto& record : file_.normal_records) {
     if (stands_behind_first_face(record.whole)) result.push_back({record.whole, Edit::Kind::Drop});
   }
-  for (int r = 0; r < static_cast<int>(file_.uv_records_.size()); ++r) {
-    const Span whole = file_.uv_records_[r].whole;
+  for (int r = 0; r < static_cast<int>(file_.uv_records.size()); ++r) {
+    const Span whole = file_.uv_records[r].whole;
     result.push_back({whole, stands_behind_first_face(whole) ? Edit::Kind::Drop : Edit::Kind::UvRecord, r});
   }
   for (int face = 0; face < atlas_.face_count(); ++face)
-    result.push_back({file_.face_records_[face].whole, Edit::Kind::Face, face});
-  for (const auto& reference : file_.vertex_references_)
+    result.push_back({file_.face_records[face].whole, Edit::Kind::Face, face});
+  for (const auto& reference : file_.vertex_references)
     result.push_back({reference.text, Edit::Kind::VertexIndex, reference.vertex});
-  for (const auto& reference : file_.uv_references_) {
+  for (const auto& reference : file_.uv_references) {
     if (reference.corner < 0) result.push_back({reference.text, Edit::Kind::UvIndex, uvs_.first[reference.record]});
   }
   std::sort(result.begin(), result.end(), [](const Edit& a, const Edit& b) { return a.span.begin < b.span.begin; });
@@ -121,7 +122,7 @@ void ObjCutWriter::write(const Edit& edit) {
     case Edit::Kind::Drop:
       break;
     case Edit::Kind::UvRecord:
-      file_.write_records(file_.uv_records_[edit.index], uvs_, out_);
+      write_uv_records(file_, edit.index, uvs_, out_);
       break;
     case Edit::Kind::Face:
       if (edit.index == 0) write_moved_records();
@@ -137,13 +138,13 @@ void ObjCutWriter::write(const Edit& edit) {
 // What faces may name stands before them: the file's own records from behind the first face, then the new ones.
 void ObjCutWriter::write_moved_records() {
   end_line();
-  for (const auto& record : file_.position_records_) {
+  for (const auto& record : file_.position_records) {
     if (stands_behind_first_face(record.whole)) write_whole(record.whole);
   }
   write_new_positions();
-  for (const auto& record : file_.uv_records_) {
-    if (!stands_behind_first_face(record.whole)) continue;
-    file_.write_records(record, uvs_, out_);
+  for (int r = 0; r < static_cast<int>(file_.uv_records.size()); ++r) {
+    if (!stands_behind_first_face(file_.uv_records[r].whole)) continue;
+    write_uv_records(file_, r, uvs_, out_);
     end_line();
   }
   for (std::size_t i = uvs_.first.back(); i < uvs_.values.size(); ++i) {
@@ -151,7 +152,7 @@ void ObjCutWriter::write_moved_records() {
     for (double number : uvs_.values[i]) append_number(out_ += ' ', number);
     end_line();
   }
-  for (const auto& record : file_.normal_records_) {
+  for (const auto& record : file_.normal_records) {
     if (stands_behind_first_face(record.whole)) write_whole(record.whole);
   }
   for (const Vec3& normal : new_normals_) {
@@ -165,15 +166,17 @@ void ObjCutWriter::write_moved_records() {
 void ObjCutWriter::write_new_positions() {
   for (const NewVertex& vertex : cut_.new_vertices) {
     out_ += "v";
-    for (double number : position_of(atlas_, vertex)) append_number(out_ += ' ', number);
-    std::array<const ObjFile::PositionRecord*, 3> records;
-    for (int k = 0; k < 3; ++k) records[k] = &file_.position_records_[atlas_.corner_vertices[vertex.corners[k]]];
+    Vec3 position = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) position += vertex.weights[k] * atlas_.positions[atlas_.corner_vertices[vertex.corners[k]]];
+    for (double number : position) append_number(out_ += ' ', number);
+    std::array<const ObjText::PositionRecord*, 3> records;
+    for (int k = 0; k < 3; ++k) records[k] = &file_.position_records[atlas_.corner_vertices[vertex.corners[k]]];
     const int count = records[0]->extra_count;
     const bool same = count == records[1]->extra_count && (vertex.weights[2] == 0 || count == records[2]->extra_count);
     for (int i = 0; same && i < count; ++i) {
       double number = 0;
       for (int k = 0; k < 3; ++k) {
-        if (vertex.weights[k] != 0) number += vertex.weights[k] * file_.extras_[records[k]->first_extra + i];
+        if (vertex.weights[k] != 0) number += vertex.weights[k] * file_.extras[records[k]->first_extra + i];
       }
       append_number(out_ += ' ', number);
     }
@@ -182,7 +185,7 @@ void ObjCutWriter::write_new_positions() {
 }
 
 void ObjCutWriter::write_face(int face) {
-  const Span tail = file_.face_records_[face].tail;
+  const Span tail = file_.face_records[face].tail;
   for (int part = first_part_[face]; part < first_part_[face + 1]; ++part) {
     out_ += 'f';
     for (int c = cut_.face_offsets[part]; c < cut_.face_offsets[part + 1]; ++c) {
@@ -191,11 +194,11 @@ void ObjCutWriter::write_face(int face) {
     }
     if (part + 1 < first_part_[face + 1]) end_line();
   }
-  out_.append(file_.text_, tail.begin, tail.end - tail.begin);
+  out_.append(file_.text, tail.begin, tail.end - tail.begin);
 }
 
 void ObjCutWriter::write_whole(Span record) {
-  out_.append(file_.text_, record.begin, record.end - record.begin);
+  out_.append(file_.text, record.begin, record.end - record.begin);
   end_line();
 }
 
@@ -204,4 +207,4 @@ void ObjCutWriter::end_line() {
   if (!out_.empty() && out_.back() != '\n' && out_.back() != '\r') out_ += line_end_;
 }
 
-}  // namespace atlas_refine::cli
+}  // namespace atlas_refine::io

@@ -1,0 +1,38 @@
+// A file that holds a mesh with UVs: the atlas in it, and what the file becomes with another one.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "atlas_refine/result.h"
+
+namespace atlas_refine::io {
+
+/// One value of this kind for each format. Whoever reads and writes meshes knows formats only through it.
+class MeshFile {
+ public:
+  virtual ~MeshFile() = default;
+
+  /// Positions, polygons and UVs in the file's order.
+  virtual const Atlas& atlas() const = 0;
+
+  /// Where in the file face `face` (0-based) is, as messages say it: "line 12".
+  virtual std::string where(int face) const = 0;
+
+  /// The file's bytes with these UVs, one per corner of `atlas()`; all else stays as it was. With the file's own UVs these are
+  /// its own bytes.
+  virtual std::string with_uvs(const std::vector<Vec2>& corner_uvs) const = 0;
+
+  /// The file's bytes with the faces of `cut`, whose corners have these UVs. What corners and vertices carry besides (normals,
+  /// colours) is interpolated as the cut's corner_sources and corner_weights say. Throws std::logic_error where these are not of
+  /// the file: a bug that must not reach a mesh.
+  virtual std::string with_cut(const CutMesh& cut, const std::vector<Vec2>& corner_uvs) const = 0;
+};
+
+/// Reads a file in the format of its name; so far every name stands for OBJ. Throws InputError that says what cannot be used and,
+/// in text, on which line.
+std::unique_ptr<const MeshFile> read_mesh_file(const std::filesystem::path& path);
+
+}  // namespace atlas_refine::io

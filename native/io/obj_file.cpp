@@ -1,0 +1,69 @@
+// A Wavefront OBJ file whose UVs can be replaced while every other byte of it stays as it was.
+#include "io/obj_file.h"
+
+#include <charconv>
+
+#include "io/obj_cut_writer.h"
+#include "io/obj_parser.h"
+#include "io/obj_uv_records.h"
+
+namespace atlas_refine::io {
+
+namespace {
+
+// A relative index stays relative: some readers do not allow both kinds in one corner.
+void write_reference(const ObjText& obj, const ObjText::UvReference& reference, const UvRecords& records, std::string& out) {
+  int value = 0;
+  std::from_chars(obj.text.data() + reference.text.begin, obj.text.data() + reference.text.end, value);
+  const int record = reference.corner < 0 ? records.first[reference.record] : records.of_corner[reference.corner];
+  if (value > 0) {
+    value = record + 1;
+  } else {
+    const int records_so_far = reference.record - value;
+    value = record - records.first[records_so_far];
+  }
+  out += std::to_string(value);
+}
+
+}  // namespace
+
+ObjFile ObjFile::parse(std::string text) { return ObjFile(parse_obj(std::move(text))); }
+
+std::string ObjFile::with_cut(const CutMesh& cut, const std::vector<Vec2>& corner_uvs) const {
+  return ObjCutWriter(text_, cut, corner_uvs).text();
+}
+
+std::string ObjFile::with_uvs(const std::vector<Vec2>& corner_uvs) const {
+  const ObjText& obj = text_;
+  if (corner_uvs == obj.atlas.corner_uvs) return obj.text;
+  std::vector<UvUse> uses;
+  uses.reserve(corner_uvs.size());
+  for (const ObjText::UvReference& reference : obj.uv_references) {
+    if (reference.corner >= 0) uses.push_back({reference.record, corner_uvs[reference.corner], reference.corner});
+  }
+  const UvRecords records = weld(obj, std::move(uses));
+  // One value for each record: indices, absolute and relative, mean what they meant.
+  const bool renumbered = records.values.size() != obj.uv_records.size();
+  std::string out;
+  out.reserve(obj.text.size() + obj.uv_records.size() * 24);
+  std::size_t copied = 0;
+  auto reference = obj.uv_references.begin();
+  const auto write_references_before = [&](std::size_t end) {
+    for (; renumbered && reference != obj.uv_references.end() && reference->text.begin < end; ++reference) {
+      out.append(obj.text, copied, reference->text.begin - copied);
+      write_reference(obj, *reference, records, out);
+      copied = reference->text.end;
+    }
+  };
+  for (int r = 0; r < static_cast<int>(obj.uv_records.size()); ++r) {
+    const ObjText::Span record = obj.uv_records[r].whole;
+    write_references_before(record.begin);
+    out.append(obj.text, copied, record.begin - copied);
+    write_uv_records(obj, r, records, out);
+    copied = record.end;
+  }
+  write_references_before(obj.text.size());
+  return out.append(obj.text, copied);
+}
+
+}  // namespace atlas_refine::io

@@ -1,0 +1,292 @@
+// Reads the text of an OBJ file: v, vt, vn, f and l records with line continuations, relative indices and any line end.
+#include "io/obj_parser.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "atlas_refine/error.h"
+#include "io/input_file.h"
+#include "io/obj_scanner.h"
+
+namespace atlas_refine::io {
+
+namespace {
+
+using Span = ObjText::Span;
+
+/// One pass, the places of everything that may be rewritten remembered.
+class ObjParser {
+ public:
+  explicit ObjParser(ObjText obj) : obj_(std::move(obj)), scanner_(obj_.text) {}
+  ObjText run() &&;
+
+ private:
+  /// One corner of a face or one point of a line element, v, v/vt, v//vn or v/vt/vn; 0-based, -1 where not given.
+  struct Corner {
+    int vertex = -1;
+    int uv = -1;
+    int normal = -1;
+    Span vertex_text;
+    Span uv_text;
+  };
+
+  void read_record();
+  void read_position(std::size_t record_begin);
+  void read_uv(std::size_t record_begin);
+  void read_normal(std::size_t record_begin);
+  void read_face(std::size_t record_begin);
+  void read_line_element();
+  void read_point_element();
+  void add_corner(const Corner& corner);
+  void check_indices() const;
+  void check_face(int face, std::vector<int>& face_seen_at_vertex) const;
+
+  Corner corner(Span token) const;
+  int index(std::string_view text, Span token, std::size_t count) const;
+  double number(Span token) const;
+  double finite_number(const char* what);
+
+  ObjText obj_;
+  ObjScanner scanner_;
+  int highest_normal_ = -1;
+  int line_of_highest_normal_ = 0;
+  bool any_uvs_ = false;
+  int first_face_without_uvs_ = -1;
+};
+
+ObjText ObjParser::run() && {
+  obj_.atlas.face_offsets = {0};
+  if (obj_.text.empty()) throw RefineError(ErrorCode::BadInput, "read", "is empty");
+  while (!scanner_.at_end()) read_record();
+  check_indices();
+  obj_.atlas.corner_uvs.resize(obj_.atlas.corner_vertices.size());
+  for (const ObjText::UvReference& reference : obj_.uv_references) {
+    if (reference.corner >= 0) obj_.atlas.corner_uvs[reference.corner] = obj_.uv_records[reference.record].value;
+  }
+  return std::move(obj_);
+}
+
+void ObjParser::read_record() {
+  scanner_.skip_indent();
+  const std::size_t record_begin = scanner_.at();
+  const std::string_view keyword = obj_.view(scanner_.next_token());
+  if (keyword == "v") {
+    read_position(record_begin);
+  } else if (keyword == "vt") {
+    read_uv(record_begin);
+  } else if (keyword == "vn") {
+    read_normal(record_begin);
+  } else if (keyword == "f") {
+    read_face(record_begin);
+  } else if (keyword == "l") {
+    read_line_element();
+  } else if (keyword == "p") {
+    read_point_element();
+  } else {
+    scanner_.skip_physical_line();
+  }
+}
+
+void ObjParser::read_position(std::size_t record_begin) {
+  ObjText::PositionRecord record;
+  record.first_extra = static_cast<int>(obj_.extras.size());
+  const double x = finite_number("vertex position");
+  const double y = finite_number("vertex position");
+  const double z = finite_number("vertex position");
+  obj_.atlas.positions.emplace_back(x, y, z);
+  for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token())
+    obj_.extras.push_back(number(token));
+  scanner_.skip_logical_line();
+  record.extra_count = static_cast<int>(obj_.extras.size()) - record.first_extra;
+  record.whole = {record_begin, scanner_.at()};
+  obj_.position_records.push_back(record);
+}
+
+void ObjParser::read_uv(std::size_t record_begin) {
+  ObjText::UvRecord record;
+  record.u = scanner_.next_token();
+  if (record.u.begin == record.u.end) scanner_.fail("a vt record without a number");
+  record.v = scanner_.next_token();
+  const bool has_v = record.v.begin != record.v.end;
+  if (!has_v) record.v = {record.u.end, record.u.end};
+  Vec2 uv(number(record.u), has_v ? number(record.v) : 0);
+  if (!uv.allFinite()) scanner_.fail("a UV that is not finite: " + quoted(obj_.view({record.u.begin, record.v.end})));
+  for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token()) number(token);  // w
+  scanner_.skip_logical_line();
+  record.whole = {record_begin, scanner_.at()};
+  record.value = uv;
+  obj_.uv_records.push_back(record);
+}
+
+// Normals matter only where faces are divided, so text that is no normal is no reason to refuse the file.
+void ObjParser::read_normal(std::size_t record_begin) {
+  Vec3 value = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (int k = 0; k < 3; ++k) {
+    const std::string_view text = obj_.view(scanner_.next_token());
+    std::from_chars(text.data(), text.data() + text.size(), value[k]);
+  }
+  scanner_.skip_logical_line();
+  obj_.normal_records.push_back({{record_begin, scanner_.at()}, value});
+}
+
+void ObjParser::read_face(std::size_t record_begin) {
+  const int face = obj_.atlas.face_count();
+  int corners = 0;
+  Corner first;
+  ObjText::FaceRecord record;
+  record.line = scanner_.line();
+  for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token(), ++corners) {
+    record.tail.begin = token.end;
+    const Corner c = corner(token);
+    if (corners == 0) first = c;
+    if ((c.uv < 0) != (first.uv < 0) || (c.normal < 0) != (first.normal < 0))
+      scanner_.fail("face " + std::to_string(face) + ": corner " + quoted(obj_.view(token)) +
+                    " has other parts than the face's first corner");
+    add_corner(c);
+  }
+  if (corners < 3) scanner_.fail("face " + std::to_string(face) + " has " + std::to_string(corners) + " corners, 3 are needed");
+  if (first.uv >= 0) {
+    any_uvs_ = true;
+  } else if (first_face_without_uvs_ < 0) {
+    first_face_without_uvs_ = face;
+  }
+  obj_.atlas.face_offsets.push_back(obj_.atlas.corner_count());
+  scanner_.skip_logical_line();
+  record.tail.end = scanner_.at();
+  record.whole = {record_begin, scanner_.at()};
+  obj_.face_records.push_back(record);
+}
+
+void ObjParser::add_corner(const Corner& corner) {
+  if (obj_.atlas.corner_vertices.size() >= static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    scanner_.fail("more face corners than this program can count");
+  if (corner.normal > highest_normal_) {
+    highest_normal_ = corner.normal;
+    line_of_highest_normal_ = scanner_.line();
+  }
+  if (corner.uv >= 0) obj_.uv_references.push_back({corner.uv_text, corner.uv, obj_.atlas.corner_count()});
+  obj_.atlas.corner_vertices.push_back(corner.vertex);
+  obj_.corner_normals.push_back(corner.normal);
+}
+
+// Line and point elements keep their text; only where records are renumbered or moved their indices must follow.
+void ObjParser::read_line_element() {
+  for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token()) {
+    const Corner c = corner(token);
+    if (c.uv >= 0) obj_.uv_references.push_back({c.uv_text, c.uv, -1});
+    obj_.vertex_references.push_back({c.vertex_text, c.vertex});
+  }
+  scanner_.skip_logical_line();
+}
+
+void ObjParser::read_point_element() {
+  for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token()) {
+    const std::string_view text = obj_.view(token);
+    const auto count = static_cast<int>(obj_.atlas.positions.size());
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool relative = error == std::errc() && end == text.data() + text.size() && value < 0 && value >= -count;
+    if (relative) obj_.vertex_references.push_back({token, count + value});
+  }
+  scanner_.skip_logical_line();
+}
+
+// Positive indices may name records that follow, so they are checked at the end.
+void ObjParser::check_indices() const {
+  const Atlas& atlas = obj_.atlas;
+  if (atlas.face_count() == 0) throw RefineError(ErrorCode::BadInput, "read", "has no faces");
+  if (!any_uvs_) throw RefineError(ErrorCode::BadInput, "read", "has no UVs: no face corner names a vt record");
+  if (const int face = first_face_without_uvs_; face >= 0)
+    scanner_.fail_at(obj_.face_records[face].line, "face " + std::to_string(face) + " has no UVs, other faces have");
+  if (highest_normal_ >= static_cast<int>(obj_.normal_records.size()))
+    scanner_.fail_at(line_of_highest_normal_, "normal index " + std::to_string(highest_normal_ + 1) +
+                                                  " is out of range, the file has " + std::to_string(obj_.normal_records.size()) +
+                                                  " normals");
+  std::vector<int> face_seen_at_vertex(atlas.positions.size(), -1);
+  for (int face = 0; face < atlas.face_count(); ++face) check_face(face, face_seen_at_vertex);
+  for (const ObjText::UvReference& reference : obj_.uv_references) {
+    if (reference.record < static_cast<int>(obj_.uv_records.size())) continue;
+    const auto after = std::upper_bound(atlas.face_offsets.begin(), atlas.face_offsets.end(), reference.corner);
+    const int face = static_cast<int>(after - atlas.face_offsets.begin()) - 1;
+    const std::string where = reference.corner < 0 ? "a line element: " : "face " + std::to_string(face) + ": ";
+    const std::string what = where + "UV index " + std::to_string(reference.record + 1) + " is out of range, the file has " +
+                             std::to_string(obj_.uv_records.size()) + " UVs";
+    if (reference.corner < 0) throw RefineError(ErrorCode::BadInput, "read", what);
+    scanner_.fail_at(obj_.face_records[face].line, what);
+  }
+}
+
+void ObjParser::check_face(int face, std::vector<int>& face_seen_at_vertex) const {
+  const Atlas& atlas = obj_.atlas;
+  for (int k = atlas.face_offsets[face]; k < atlas.face_offsets[face + 1]; ++k) {
+    const int vertex = atlas.corner_vertices[k];
+    const auto complain = [&](const std::string& what) {
+      scanner_.fail_at(obj_.face_records[face].line,
+                       "face " + std::to_string(face) + ": vertex " + std::to_string(vertex + 1) + what);
+    };
+    if (vertex >= static_cast<int>(atlas.positions.size()))
+      complain(" is out of range, the file has " + std::to_string(atlas.positions.size()) + " vertices");
+    if (face_seen_at_vertex[vertex] == face) complain(" is used twice");
+    face_seen_at_vertex[vertex] = face;
+  }
+}
+
+ObjParser::Corner ObjParser::corner(Span token) const {
+  const std::string_view text = obj_.view(token);
+  Corner result;
+  const std::size_t slash1 = std::min(text.find('/'), text.size());
+  result.vertex_text = {token.begin, token.begin + slash1};
+  result.vertex = index(obj_.view(result.vertex_text), token, obj_.atlas.positions.size());
+  if (slash1 == text.size()) return result;
+  const std::size_t slash2 = std::min(text.find('/', slash1 + 1), text.size());
+  result.uv_text = {token.begin + slash1 + 1, token.begin + slash2};
+  if (const auto uv = obj_.view(result.uv_text); !uv.empty()) result.uv = index(uv, token, obj_.uv_records.size());
+  if (slash2 == text.size()) return result;
+  if (const auto normal = text.substr(slash2 + 1); !normal.empty())
+    result.normal = index(normal, token, obj_.normal_records.size());
+  return result;
+}
+
+// A 1-based index, or a negative one relative to the `count` records so far. `token` is what messages quote.
+int ObjParser::index(std::string_view text, Span token, std::size_t count) const {
+  long long value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument)
+    scanner_.fail(quoted(obj_.view(token)) + " is not a face corner");
+  const bool fits = error == std::errc() && value <= std::numeric_limits<int>::max();
+  if (!fits || value == 0 || value < -static_cast<long long>(count))
+    scanner_.fail("index out of range in " + quoted(obj_.view(token)));
+  return static_cast<int>(value > 0 ? value - 1 : static_cast<long long>(count) + value);
+}
+
+double ObjParser::number(Span token) const {
+  std::string_view text = obj_.view(token);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size() || error == std::errc::invalid_argument)
+    scanner_.fail(quoted(obj_.view(token)) + " is not a number");
+  // from_chars does not tell an overflow from an underflow.
+  return error == std::errc() ? value : std::strtod(std::string(text).c_str(), nullptr);
+}
+
+double ObjParser::finite_number(const char* what) {
+  const Span token = scanner_.next_token();
+  if (token.begin == token.end) scanner_.fail(std::string("a ") + what + " with too few numbers");
+  const double value = number(token);
+  if (!std::isfinite(value)) scanner_.fail(std::string("a ") + what + " that is not finite: " + quoted(obj_.view(token)));
+  return value;
+}
+
+}  // namespace
+
+ObjText parse_obj(std::string text) {
+  ObjText obj;
+  obj.text = std::move(text);
+  return ObjParser(std::move(obj)).run();
+}
+
+}  // namespace atlas_refine::io
