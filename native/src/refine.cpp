@@ -44,12 +44,52 @@ void note_mirrored(const InputAtlas& input, Journal& journal) {
   if (!mirrored.empty()) journal.repairs.push_back(charts_named(mirrored) + ": mirrored, turned over");
 }
 
-/// The road that was asked for; where the one that cuts does not lead to the bound, the one that does not.
-Solution solve(const Refinement& run, const ProgressRange& range) {
-  if (run.options.seams == Seams::Rectangles) {
-    if (auto cut = refine_by_rectangles(run, range)) return std::move(*cut);
+struct CertifiedSolution {
+  Solution solution;
+  CertifiedAtlas atlas;
+};
+
+CertifiedSolution certified(const Refinement& run, Solution solution) {
+  run.journal.begin_stage("certify", {0.95, 1});
+  CertifiedAtlas atlas = certify(run.input, solution.atlas, solution.gap, run.options);
+  return {std::move(solution), std::move(atlas)};
+}
+
+/// Where the charts would have been better off without cuts at the same bound and gap, the warnings say so.
+void compare_with_whole(const Refinement& run, const CertifiedSolution& cut) {
+  RefineOptions options = run.options;
+  options.gap = cut.solution.gap;
+  options.max_distortion = cut.atlas.after.distortion;  // gives up as soon as that is exceeded
+  Journal aside(run.monitor, nullptr, options.box_aspect);
+  try {
+    const Refinement other{run.input, options, run.monitor, aside, run.threads};
+    const CertifiedSolution whole = certified(other, refine_whole(other, {0.95, 0.98}));
+    if (whole.atlas.after.distortion >= cut.atlas.after.distortion || whole.atlas.after.pe_fixed_aspect < options.pe_bound)
+      return;
+    run.journal.warnings.push_back("without cuts the charts hold the same bound with less distortion: E_d " +
+                                   number_text("%.4f", whole.atlas.after.distortion) + " against " +
+                                   number_text("%.4f", cut.atlas.after.distortion));
+  } catch (const RefineError& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;  // else there is nothing to compare with
   }
-  return refine_whole(run, range);
+}
+
+/// The road that was asked for; where the one that cuts does not lead to a valid atlas at the bound, the one that does not.
+CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
+  if (run.options.seams == Seams::Rectangles) {
+    try {
+      if (auto cut = refine_by_rectangles(run, range)) {
+        CertifiedSolution result = certified(run, std::move(*cut));
+        if (!run.options.rectangles.until_input) compare_with_whole(run, result);
+        return result;
+      }
+    } catch (const RefineError& error) {
+      if (error.code() != ErrorCode::NotCertified) throw;
+      run.journal.fallbacks.push_back(std::string("charts were not cut into rectangles: ") + error.what() +
+                                      "; they are squeezed");
+    }
+  }
+  return certified(run, refine_whole(run, range));
 }
 
 /// Why the result is not what was asked for; empty where it is.
@@ -102,13 +142,11 @@ RefineResult refine_input(const Atlas& atlas, const RefineOptions& options, Moni
   if (holds && !options.relax) return unchanged(input, options);
 
   const Refinement run{input, options, monitor, journal, resolve_threads(options.threads)};
-  const Solution solution = solve(run, {0.02, 0.95});
-  journal.begin_stage("certify", {0.95, 1});
-  CertifiedAtlas certified = certify(input, solution.atlas, solution.gap, options);
-  if (holds && certified.after.distortion >= input.measures.distortion) return unchanged(input, options);
-  journal.show(to_string(solution.intervention), certified.stored);
-  warn_of_early_end(solution, journal);
-  return result_of(input, options, solution, std::move(certified));
+  CertifiedSolution result = solve(run, {0.02, 0.95});
+  if (holds && result.atlas.after.distortion >= input.measures.distortion) return unchanged(input, options);
+  journal.show(to_string(result.solution.intervention), result.atlas.stored);
+  warn_of_early_end(result.solution, journal);
+  return result_of(input, options, result.solution, std::move(result.atlas));
 }
 
 }  // namespace

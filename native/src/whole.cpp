@@ -97,6 +97,8 @@ Solution refine_whole(const Refinement& run, const ProgressRange& range) {
       options.gap ? std::vector<Gap>{*options.gap} : automatic_gaps(charts, options.pe_bound, options.box_aspect);
   const PlaceOptions place{gaps.front(), options.box_aspect, options.pe_bound, options.seed, run.threads};
   const std::vector<Chart> placed = place_charts(charts, place, run.monitor);
+  if (const Validity valid = certify_charts(placed); !valid.valid())
+    throw RefineError(ErrorCode::BadInput, "pack", "charts could not be placed apart: " + valid.problem, valid.chart, valid.face);
   run.journal.show("placed", placed);
   out.atlas = with_uvs(whole_atlas(charts), uvs_of(placed));
   out.gap = gaps.front();

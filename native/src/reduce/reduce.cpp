@@ -15,6 +15,7 @@ namespace {
 constexpr double kNegligible = 1e-8;  // a change of E_d that nobody can measure
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kStallIterations = 12;
+constexpr double kTelling = 1;  // damping up to which the price is that of distortion
 
 /// Where the iteration is.
 struct Iterate {
@@ -160,7 +161,9 @@ Counters counted(const Task& task, const Change& change, const Iterate& at, cons
   const bool quiet = moved < problem.least_change * (at.energy - 1) + problem.negligible && at.fraction > 0.1;
   const bool calm = on_target && quiet && settled(schedule, task.view(at, schedule.margin), at.price);
   counters.calm = calm ? counters.calm + 1 : 0;
-  counters.expensive = at.price > problem.max_price ? counters.expensive + 1 : 0;
+  // A price under heavy damping tells of a collision, not of distortion.
+  const bool expensive = at.price > problem.max_price && schedule.damping <= kTelling;
+  counters.expensive = expensive ? counters.expensive + 1 : 0;
   counters.distorted = !task.within_limit(at) && quiet ? counters.distorted + 1 : 0;
   const bool progress = moved > 1e-5 * (at.energy - 1) + 0.1 * kNegligible || change.pe > 1e-5 * at.pe;
   counters.idle = progress ? 0 : counters.idle + 1;

@@ -81,14 +81,13 @@ std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_boun
 Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor) {
   Squeezed out;
-  std::vector<std::vector<Chart>> present = starts;
   if (options.gaps.front().value < Gap{}.value) out.gap_note = "a larger one leaves the charts no room at the bound";
   for (const Gap& gap : options.gaps) {
-    const int count = static_cast<int>(present.size());
+    const int count = static_cast<int>(starts.size());
     std::vector<ReduceResult> results(count);
     const int inner = std::max(1, options.threads / count);
     parallel_ranges(count, options.threads, 1, [&](int begin, int end) {
-      for (int k = begin; k < end; ++k) results[k] = reduce_from(present[k], objective, gap, options, inner, monitor);
+      for (int k = begin; k < end; ++k) results[k] = reduce_from(starts[k], objective, gap, options, inner, monitor);
     });
     int best = 0;
     for (int k = 0; k < count; ++k) {
@@ -98,9 +97,10 @@ Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const Objective&
     if (&gap != &options.gaps.front()) out.gap_note = reason(out.outcome.status);
     out.gap = gap;
     out.outcome = std::move(results[best]);
-    if (out.outcome.reached && out.outcome.within_limit) break;
-    present = {present[best]};
-    for (std::size_t c = 0; c < present[0].size(); ++c) present[0][c].uvs = out.outcome.uvs[c];
+    const bool last = &gap == &options.gaps.back();
+    const bool dear = !last && out.outcome.reached && options.max_price > 0 && out.outcome.price > options.max_price;
+    if (dear) out.outcome.status = ReduceStatus::TooExpensive;
+    if (out.outcome.reached && out.outcome.within_limit && !dear) break;
   }
   return out;
 }

@@ -1,0 +1,169 @@
+// What the options promise: limits on the surface, texel density, importance, relaxing, textures that are not square.
+#include <cmath>
+
+#include "charts.h"
+#include "refine_checks.h"
+#include "shapes.h"
+
+namespace atlas_refine {
+namespace {
+
+using testing::refine_soundly;
+using testing::with_corner_uvs;
+
+Atlas at_scale(Atlas atlas, double scale, const Vec2& shift = Vec2::Zero()) {
+  for (Vec2& uv : atlas.corner_uvs) uv = scale * uv + shift;
+  return atlas;
+}
+
+/// A cap of the unit sphere, seen from above: no flattening gets below E_d 1.001.
+Atlas dome() {
+  Atlas atlas = shapes::mesh(shapes::disk(0.8), 0.12, 0);
+  for (Vec3& p : atlas.positions) p.z() = std::sqrt(1 - p.x() * p.x() - p.y() * p.y());
+  return atlas;
+}
+
+double area_ratio(const Atlas& atlas, const RefineResult& result) {
+  const auto charts = testing::charts_of(with_corner_uvs(atlas, result.corner_uvs));
+  return uv_area(charts[1]) / uv_area(charts[0]);
+}
+
+// ---- the largest distortion ----
+
+TEST(Limits, TheLargestDistortionCountsOnTheSurfaceWhateverTheDensity) {
+  for (const Density density : {Density::Equal, Density::Keep}) {
+    RefineOptions options{.pe_bound = 0.5, .max_distortion = 1.001, .density = density};
+    const RefineError error = testing::refusal(dome(), options);
+    EXPECT_EQ(error.code(), ErrorCode::BoundNotReached);
+    EXPECT_NE(std::string(error.what()).find("no atlas within a distortion of 1.001"), std::string::npos) << error.what();
+    options.best_effort = true;  // takes a missed bound, not a missed limit
+    EXPECT_EQ(testing::refusal(dome(), options).code(), ErrorCode::BoundNotReached);
+  }
+}
+
+TEST(Limits, TheBestPeIsNamedWithinTheLimit) {
+  const Atlas atlas = shapes::mesh(shapes::comb(), 0.08);
+  RefineOptions options{.pe_bound = 0.97, .max_distortion = 1.02};
+  const std::string message = testing::refusal(atlas, options).what();
+  options.best_effort = true;
+  const RefineResult best = refine(atlas, options);
+  EXPECT_FALSE(best.bound_met);
+  EXPECT_LE(best.after.distortion, 1.02);
+  EXPECT_EQ(best.ended, Ended::DistortionLimit);
+  char pe[32];
+  std::snprintf(pe, sizeof pe, "%.4f", best.after.pe);
+  EXPECT_NE(message.find(pe), std::string::npos) << message << " does not name " << pe;
+  // That much is really to be had.
+  refine_soundly(atlas, {.pe_bound = best.after.pe - 0.005, .max_distortion = 1.02});
+}
+
+TEST(Limits, TheRoadThatCutsNamesTheLimitToo) {
+  const RefineError error = testing::refusal(dome(), {.pe_bound = 0.98, .seams = Seams::Rectangles, .max_distortion = 1.001});
+  EXPECT_NE(std::string(error.what()).find("within a distortion of 1.001"), std::string::npos) << error.what();
+}
+
+// ---- importance, reference, density ----
+
+TEST(Limits, UniformImportanceChangesNothing) {
+  const Atlas atlas = shapes::mesh(shapes::s_shape(), 0.08);
+  const RefineResult plain = refine_soundly(atlas, {});
+  for (const double weight : {1e-4, 1e6}) {
+    RefineOptions options;
+    options.importance.assign(atlas.face_count(), weight);
+    const RefineResult result = refine_soundly(atlas, options);
+    EXPECT_NEAR(result.iterations, plain.iterations, 2);
+    EXPECT_NEAR(result.after.distortion, plain.after.distortion, 1e-6);
+    EXPECT_EQ(result.gap.value, plain.gap.value);
+  }
+}
+
+TEST(Limits, TheInputAsReferenceDoesNotDecideTheDensity) {
+  const Atlas atlas =
+      shapes::combine({shapes::mesh(shapes::star(), 0.1, 0), at_scale(shapes::mesh(shapes::c_shape(), 0.1, 0), 3, {2, 0})});
+  const auto ratio = [&](Reference reference, Density density) {
+    return area_ratio(atlas, refine_soundly(atlas, {.density = density, .reference = reference}));
+  };
+  EXPECT_NEAR(ratio(Reference::Input, Density::Equal), ratio(Reference::Surface, Density::Equal), 0.1);
+  EXPECT_NEAR(ratio(Reference::Input, Density::Keep), ratio(Reference::Surface, Density::Keep), 0.6);
+  EXPECT_LT(refine_soundly(atlas, {.reference = Reference::Input}).after.distortion, 1.05);
+}
+
+TEST(Limits, KeptDensityOutlivesANewEmbedding) {
+  for (const double model_scale : {1.0, 100.0}) {
+    Atlas atlas = shapes::combine({shapes::mesh(shapes::star(), 0.1), at_scale(shapes::self_overlapping(), 0.2, {3, 0})});
+    for (Vec3& p : atlas.positions) p *= model_scale;
+    const RefineResult result = refine_soundly(atlas, {.pe_bound = 0.7, .density = Density::Keep});
+    ASSERT_TRUE(result.charts[1].re_embedded);
+    for (const ChartReport& chart : result.charts) EXPECT_NEAR(chart.density_after / chart.density_before, 1, 0.08);
+  }
+}
+
+TEST(Limits, DensitiesAreReported) {
+  const Atlas atlas =
+      shapes::combine({shapes::mesh(shapes::star(), 0.1), at_scale(shapes::mesh(shapes::star(), 0.1), 2, {2, 0})});
+  const RefineResult equal = refine_soundly(atlas, {});
+  EXPECT_NEAR(equal.charts[1].density_before / equal.charts[0].density_before, 2, 1e-9);
+  EXPECT_NEAR(equal.charts[1].density_after / equal.charts[0].density_after, 1, 0.05);
+}
+
+TEST(Limits, DensitiesOfTheInputDoNotSpoilTheRoadThatCuts) {
+  const auto both = [](double scale) {
+    return shapes::combine({shapes::mesh(shapes::star(), 0.1), at_scale(shapes::mesh(shapes::u_shape(), 0.1), scale, {9, 0})});
+  };
+  RefineOptions options{.seams = Seams::Rectangles};
+  for (const bool until_input : {false, true}) {
+    options.rectangles.until_input = until_input;
+    const RefineResult one = refine(both(1), options), two = refine(both(5), options);
+    EXPECT_LE(two.after.distortion, one.after.distortion + 2e-3);
+  }
+}
+
+// ---- relaxing ----
+
+TEST(Limits, RelaxGoesOnToTheOptimumUnderTheBound) {
+  Atlas atlas = shapes::mesh(shapes::rectangle(1, 1), 0.1, 0);
+  for (Vec2& uv : atlas.corner_uvs) uv = {uv.x() * (0.7 + 0.3 * uv.x()), uv.y()};
+  const RefineResult kept = refine_soundly(atlas, {.pe_bound = 0.9});
+  EXPECT_EQ(kept.intervention, Intervention::Unchanged);
+  const RefineResult relaxed = refine_soundly(atlas, {.pe_bound = 0.9, .relax = true});
+  EXPECT_EQ(relaxed.intervention, Intervention::Squeezed);
+  EXPECT_LT(relaxed.after.distortion, 1 + 0.1 * (kept.after.distortion - 1));
+  // What is at its optimum already stays as it is.
+  const Atlas square = shapes::mesh(shapes::rectangle(1, 1), 0.1, 0);
+  EXPECT_EQ(refine_soundly(square, {.pe_bound = 0.9, .relax = true}).intervention, Intervention::Unchanged);
+}
+
+TEST(Limits, RelaxedALooserBoundIsNeverDearer) {
+  const Atlas atlas = shapes::mesh(shapes::star(), 0.06, 1.2);
+  double last = 2;
+  for (const double bound : {0.85, 0.75, 0.65, 0.55}) {
+    const RefineResult result = refine_soundly(atlas, {.pe_bound = bound, .relax = true});
+    EXPECT_LE(result.after.distortion, last + 1e-4) << bound;
+    last = result.after.distortion;
+  }
+}
+
+// ---- textures that are not square ----
+
+TEST(Limits, UvsFillTheTextureOfAnyAspect) {
+  const Atlas atlas = shapes::combine(
+      {shapes::mesh(shapes::star(), 0.1), shapes::mesh(shapes::transformed(shapes::u_shape(), 1, 0, {2, 0}), 0.1)});
+  for (const double aspect : {2.0, 0.25}) {
+    const Gap gap{4.0 / 1024, Gap::Unit::LongSide};
+    const RefineResult result = refine_soundly(atlas, {.pe_bound = 0.8, .box_aspect = aspect, .gap = gap});
+    Vec2 high = Vec2::Zero();
+    for (const Vec2& uv : result.corner_uvs) high = high.cwiseMax(uv);
+    EXPECT_GT(high.minCoeff(), 0.98);  // both sides
+    EXPECT_GE(result.after.unit_square_share, 0.8);
+    EXPECT_LT(result.after.distortion, 1.1);  // on the texture
+    auto stretched = testing::charts_of(with_corner_uvs(atlas, result.corner_uvs));
+    for (Chart& chart : stretched) {
+      for (Vec2& uv : chart.uvs) uv.x() *= aspect;
+    }
+    EXPECT_GE(gap_between_charts(stretched), 0.99 * gap.value * std::max(aspect, 1.0));
+    EXPECT_LT(dirichlet_sums(stretched).best_energy(), 1.1);
+  }
+}
+
+}  // namespace
+}  // namespace atlas_refine
