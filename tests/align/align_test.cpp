@@ -73,6 +73,16 @@ TEST(Align, NarrowStripsKeepTheirEnds) {
   }
 }
 
+/// So steep a surface that no plane chart of it is good: aligned, it is better than it was.
+TEST(Align, WhatWasWorseBeforeIsNotTooDistorted) {
+  const std::vector<Chart> charts = testing::charts_of(shapes::mesh(shapes::c_shape(), 0.1, 60));
+  const AxisAlignedChart out = testing::aligned(charts, 0.004).front();
+  EXPECT_EQ(out.way, AxisAlignedChart::Way::Deformed);
+  const double before = dirichlet_sums(charts).best_energy(), after = dirichlet_sums(out.mesh.to_chart(charts[0])).best_energy();
+  EXPECT_GT(after, 4);
+  EXPECT_LT(after, before);
+}
+
 TEST(Align, LargerSigmaGivesFewerCorners) {
   const std::vector<Chart> charts = {testing::chart_of(shapes::comb(8), 0.05)};
   const auto corners = [&](double sigma) { return corner_count(testing::aligned(charts, sigma)[0]); };

@@ -31,7 +31,7 @@ constexpr double kMergeCost = 1.05;
 constexpr double kFreeMerge = 1e-8;  // E_d that merging may always cost: a flat chart has none to multiply
 constexpr double kAligned = 0.01;    // rad off an axis at most: a boundary that runs along the axes as it is
 constexpr int kLeastTriangles = 4;   // charts of fewer are packed as they are
-constexpr double kTooDistorted = 4;  // E_d of an axis-aligned chart that is not worth it
+constexpr double kTooDistorted = 4;  // E_d of an axis-aligned chart that is not worth it, unless it was more before
 
 void rotate(Chart& chart, double angle) {
   const Mat2 rotation = Eigen::Rotation2Dd(angle).toRotationMatrix();
@@ -124,9 +124,10 @@ struct AlignedDisk {
 
 /// With near lines made one, in surface units; nothing where the chart would be bent beyond use.
 std::optional<AlignedDisk> accepted(Chart chart, AlignedDisk disk, double sigma_length) {
+  const double energy_before = dirichlet_sums(chart).best_energy();
   chart.uvs = disk.uvs;
   const double energy = dirichlet_sums(chart).best_energy();
-  if (!(energy < kTooDistorted)) return std::nullopt;
+  if (!(energy < std::max(kTooDistorted, energy_before))) return std::nullopt;
   for (const double tolerance : kSameLine) {
     chart.uvs = merged_lines(disk.uvs, disk.boundary, disk.quarter_turns, tolerance * sigma_length);
     if (!positive(chart, chart.uvs)) continue;
