@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "align/deform.h"
@@ -117,22 +118,23 @@ std::vector<Vec2> merged_lines(const std::vector<Vec2>& uvs, const std::vector<i
 
 /// A prepared chart whose boundary edges are axis-parallel.
 struct AlignedDisk {
+  AxisAlignedChart::Way way;
   std::vector<int> boundary;
   std::vector<int> quarter_turns;
   std::vector<Vec2> uvs;
+  double energy = 0;  // E_d
 };
 
-/// With near lines made one, in surface units; nothing where the chart would be bent beyond use.
-std::optional<AlignedDisk> accepted(Chart chart, AlignedDisk disk, double sigma_length) {
-  const double energy_before = dirichlet_sums(chart).best_energy();
+/// With near lines made one, in surface units, E_d known; nothing where that fails.
+std::optional<AlignedDisk> finished(Chart chart, AlignedDisk disk, double sigma_length) {
   chart.uvs = disk.uvs;
   const double energy = dirichlet_sums(chart).best_energy();
-  if (!(energy < std::max(kTooDistorted, energy_before))) return std::nullopt;
   for (const double tolerance : kSameLine) {
     chart.uvs = merged_lines(disk.uvs, disk.boundary, disk.quarter_turns, tolerance * sigma_length);
     if (!positive(chart, chart.uvs)) continue;
     const DirichletSums sums = dirichlet_sums(chart);
-    if (sums.best_energy() - 1 > kMergeCost * (energy - 1) + kFreeMerge) continue;
+    if (!(sums.best_energy() - 1 <= kMergeCost * (energy - 1) + kFreeMerge)) continue;
+    disk.energy = sums.best_energy();
     disk.uvs = std::move(chart.uvs);
     for (Vec2& uv : disk.uvs) uv *= sums.best_scale();
     return disk;
@@ -178,7 +180,7 @@ std::optional<AlignedDisk> deformed(Chart chart, BoundaryAngles boundary, double
   for (double& angle : boundary.angle_rad) angle += turn_rad;
   auto shape = deform_to_axes(chart, {boundary, quarter_turns}, [&] { monitor.check(); });
   if (!shape) return std::nullopt;
-  return AlignedDisk{boundary.vertices, std::move(shape->quarter_turns), std::move(shape->uvs)};
+  return AlignedDisk{AxisAlignedChart::Way::Deformed, boundary.vertices, std::move(shape->quarter_turns), std::move(shape->uvs)};
 }
 
 /// As its boundary runs already.
@@ -205,7 +207,7 @@ std::optional<AlignedDisk> rectangle(const Chart& chart, double sigma) {
   if (quarter_turns.empty()) return std::nullopt;
   auto uvs = onto_rectangle(chart, boundary, quarter_turns);
   if (!uvs) return std::nullopt;
-  return accepted(chart, {boundary.vertices, quarter_turns, std::move(*uvs)}, sigma * boundary.perimeter());
+  return AlignedDisk{AxisAlignedChart::Way::Rectangle, boundary.vertices, quarter_turns, std::move(*uvs)};
 }
 
 /// At its own scale, turned so that its bounding box is small.
@@ -225,19 +227,25 @@ AxisAlignedChart as_it_is(const Chart& source) {
   return out;
 }
 
-/// As its boundary runs, else by smoothing: with finer, then coarser sigmas, at last with that of a strip.
-std::optional<AlignedDisk> kept_or_smoothed(const Chart& chart, double sigma, Monitor& monitor) {
+/// As its boundary runs, else by smoothing with finer, then coarser sigmas, with that of a strip, at last as a rectangle: the
+/// first that is not too distorted. Where all are, the least, if the chart was worse before.
+std::optional<AlignedDisk> aligned_disk(const Chart& chart, double sigma, Monitor& monitor) {
   const double perimeter = polar_angles(chart).perimeter();
-  const auto tried = [&](std::optional<AlignedDisk> disk) {
-    return disk ? accepted(chart, std::move(*disk), sigma * perimeter) : std::nullopt;
-  };
-  if (auto disk = tried(kept(chart, sigma, monitor))) return disk;
-  for (const double factor : kSigmas) {
-    if (auto disk = tried(smoothed(chart, factor * sigma, kCornerCost * factor * sigma, monitor))) return disk;
-  }
+  std::vector<std::function<std::optional<AlignedDisk>()>> attempts = {[&] { return kept(chart, sigma, monitor); }};
+  for (const double factor : kSigmas)
+    attempts.emplace_back([&, factor] { return smoothed(chart, factor * sigma, kCornerCost * factor * sigma, monitor); });
   const double sigma_of_width = kSigmaOfWidth * 2 * uv_area(chart) / (perimeter * perimeter);
-  if (sigma_of_width >= sigma) return std::nullopt;
-  return tried(smoothed(chart, sigma_of_width, kCornerCost * sigma, monitor));
+  if (sigma_of_width < sigma)
+    attempts.emplace_back([&] { return smoothed(chart, sigma_of_width, kCornerCost * sigma, monitor); });
+  attempts.emplace_back([&] { return rectangle(chart, sigma); });
+  std::optional<AlignedDisk> best;
+  for (const auto& attempt : attempts) {
+    std::optional<AlignedDisk> disk = attempt();
+    if (disk) disk = finished(chart, std::move(*disk), sigma * perimeter);
+    if (disk && (!best || disk->energy < best->energy)) best = std::move(disk);
+    if (best && best->energy < kTooDistorted) return best;
+  }
+  return best && best->energy < dirichlet_sums(chart).best_energy() ? best : std::nullopt;
 }
 
 AxisAlignedChart align(const Chart& source, double sigma, Monitor& monitor) {
@@ -245,18 +253,14 @@ AxisAlignedChart align(const Chart& source, double sigma, Monitor& monitor) {
   PreparedChart prepared = prepare_chart(source);
   if (!prepared.opening.is_disk) return as_it_is(source);
   const Chart chart = prepared.mesh.to_chart(source);
-  AxisAlignedChart out{
-      .mesh = std::move(prepared.mesh), .boundary = {}, .quarter_turns = {}, .holes_cut = prepared.opening.holes_cut};
-  std::optional<AlignedDisk> disk = kept_or_smoothed(chart, sigma, monitor);
-  if (!disk) {
-    out.way = AxisAlignedChart::Way::Rectangle;
-    disk = rectangle(chart, sigma);
-  }
+  std::optional<AlignedDisk> disk = aligned_disk(chart, sigma, monitor);
   if (!disk) return as_it_is(source);
-  out.mesh.uvs = std::move(disk->uvs);
-  out.boundary = std::move(disk->boundary);
-  out.quarter_turns = std::move(disk->quarter_turns);
-  return out;
+  prepared.mesh.uvs = std::move(disk->uvs);
+  return {.way = disk->way,
+          .mesh = std::move(prepared.mesh),
+          .boundary = std::move(disk->boundary),
+          .quarter_turns = std::move(disk->quarter_turns),
+          .holes_cut = prepared.opening.holes_cut};
 }
 
 }  // namespace
