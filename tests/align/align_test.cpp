@@ -52,14 +52,40 @@ TEST(Align, TinyChartsStayAsTheyAre) {
   EXPECT_NEAR(uv_box({chart}).area(), 1, 1e-9);
 }
 
+int corner_count(const AxisAlignedChart& chart) {
+  const std::vector<int> turns = corner_turns(chart.quarter_turns);
+  return static_cast<int>(std::count_if(turns.begin(), turns.end(), [](int k) { return k != 0; }));
+}
+
+/// Ends shorter than the least segment of the usual sigma, straight and slanted.
+TEST(Align, NarrowStripsKeepTheirEnds) {
+  for (const double width : {0.01, 0.003}) {
+    for (const double slant : {0.0, 0.1 * width}) {
+      SCOPED_TRACE(width);
+      const shapes::Polygon strip{{{0, 0}, {1, 0}, {1 + slant, width}, {slant, width}}, {}};
+      const std::vector<Chart> charts = testing::charts_of(shapes::mesh(shapes::transformed(strip, 1, 0.3, {0, 0}), 0.25, 0));
+      const AxisAlignedChart out = testing::aligned(charts, 0.004).front();
+      EXPECT_EQ(out.way, AxisAlignedChart::Way::Deformed);
+      testing::expect_axis_aligned(out);
+      EXPECT_EQ(corner_count(out), 4);
+      EXPECT_LT(dirichlet_sums(out.mesh.to_chart(charts[0])).best_energy(), 1.02);
+    }
+  }
+}
+
+/// So steep a surface that no plane chart of it is good: aligned, it is better than it was.
+TEST(Align, WhatWasWorseBeforeIsNotTooDistorted) {
+  const std::vector<Chart> charts = testing::charts_of(shapes::mesh(shapes::c_shape(), 0.1, 60));
+  const AxisAlignedChart out = testing::aligned(charts, 0.004).front();
+  EXPECT_EQ(out.way, AxisAlignedChart::Way::Deformed);
+  const double before = dirichlet_sums(charts).best_energy(), after = dirichlet_sums(out.mesh.to_chart(charts[0])).best_energy();
+  EXPECT_GT(after, 4);
+  EXPECT_LT(after, before);
+}
+
 TEST(Align, LargerSigmaGivesFewerCorners) {
   const std::vector<Chart> charts = {testing::chart_of(shapes::comb(8), 0.05)};
-  const auto corners = [&](double sigma) {
-    const std::vector<int> turns = testing::aligned(charts, sigma)[0].quarter_turns;
-    int count = 0;
-    for (std::size_t i = 1; i < turns.size(); ++i) count += turns[i] != turns[i - 1];
-    return count;
-  };
+  const auto corners = [&](double sigma) { return corner_count(testing::aligned(charts, sigma)[0]); };
   EXPECT_GT(corners(0.002), corners(0.1));
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -46,18 +47,28 @@ double shortest_segment(const TargetProblem& problem, const std::vector<int>& la
   return shortest;
 }
 
-/// The least cost of all labels within `reach` of the angles that keep the rules.
-double least_cost(const TargetProblem& problem) {
-  const int n = static_cast<int>(problem.lengths.size());
-  std::vector<int> base(n), labels(n);
-  for (int i = 0; i < n; ++i) base[i] = static_cast<int>(std::lround(problem.angle_rad[i] / (pi / 2))) - 1;
-  double best = std::numeric_limits<double>::infinity();
-  const int count = static_cast<int>(std::lround(std::pow(3, n)));
-  for (int code = 0; code < count; ++code) {
-    for (int i = 0, rest = code; i < n; ++i, rest /= 3) labels[i] = base[i] + rest % 3;
-    if (!allowed(labels) || shortest_segment(problem, labels) < problem.least_segment - 1e-12) continue;
-    best = std::min(best, cost(problem, labels));
+/// Calls `visit` with all labels within three quarter turns of the angles that turn as they may, the last vertex left out.
+void for_all_labels(const TargetProblem& problem, std::vector<int>& labels,
+                    const std::function<void(const std::vector<int>&)>& visit) {
+  const std::size_t i = labels.size();
+  if (i == problem.lengths.size()) return visit(labels);
+  const int own = static_cast<int>(std::lround(problem.angle_rad[i] / (pi / 2)));
+  for (int label = own - 3; label <= own + 3; ++label) {
+    if (i > 0 && (label - labels[i - 1] > 1 || label - labels[i - 1] < -2)) continue;
+    labels.push_back(label);
+    for_all_labels(problem, labels, visit);
+    labels.pop_back();
   }
+}
+
+/// The least cost of all labels that keep the rules, infinite where none do.
+double least_cost(const TargetProblem& problem) {
+  double best = std::numeric_limits<double>::infinity();
+  std::vector<int> labels;
+  for_all_labels(problem, labels, [&](const std::vector<int>& all) {
+    if (!allowed(all) || shortest_segment(problem, all) < problem.least_segment * (1 - 1e-9)) return;
+    best = std::min(best, cost(problem, all));
+  });
   return best;
 }
 
@@ -69,29 +80,79 @@ std::vector<double> random_turn(int n, double noise, Rng& rng) {
   return angles;
 }
 
+/// Lengths and angles of a small cycle; a third of them mild, the others wild.
+struct SmallCycle {
+  std::vector<double> lengths, angles;
+  double corner_cost, least_segment;
+
+  SmallCycle(int trial, Rng& rng) {
+    const int n = 5 + trial % 4;
+    const double noise[] = {0.9, 2.5, 5};
+    angles = random_turn(n, noise[trial % 3], rng);
+    for (int i = 0; i < n; ++i) lengths.push_back(rng.uniform(0.05, 2));
+    corner_cost = trial % 5 == 0 ? 0 : rng.uniform(0, 2);
+    least_segment = trial % 2 == 0 ? 0 : rng.uniform(0, 0.3) * std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  }
+  TargetProblem problem() const { return {lengths, angles, corner_cost, least_segment}; }
+};
+
 TEST(TargetAngles, NoOtherLabelsOfASmallCycleCostLess) {
   Rng rng(5);
-  for (int trial = 0; trial < 60; ++trial) {
+  int solved = 0, unsolvable = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
     SCOPED_TRACE(trial);
-    const int n = 5 + trial % 5;
-    std::vector<double> lengths;
-    for (int i = 0; i < n; ++i) lengths.push_back(rng.uniform(0.2, 2));
-    std::vector<double> angles = random_turn(n, 0.9, rng);
-    if (trial % 3 == 0) {
-      // A side that is longer than the least segment and lies along an axis: the walk begins there.
-      lengths[0] = 6;
-      angles[0] = pi / 2 * std::round(angles[0] / (pi / 2));
-    }
-    const TargetProblem problem{lengths, angles, rng.uniform(0, 1), trial % 3 == 0 ? 0.6 : 0};
-    const std::vector<int> labels = target_angles(problem);
-    const double least = least_cost(problem);
+    const SmallCycle cycle(trial, rng);
+    const std::vector<int> labels = target_angles(cycle.problem());
+    const double least = least_cost(cycle.problem());
     if (labels.empty()) {
       EXPECT_EQ(least, std::numeric_limits<double>::infinity());
+      ++unsolvable;
       continue;
     }
+    ++solved;
     EXPECT_TRUE(allowed(labels));
-    EXPECT_LE(cost(problem, labels), least + 1e-9);
+    EXPECT_GE(shortest_segment(cycle.problem(), labels), cycle.least_segment * (1 - 1e-9));
+    EXPECT_NEAR(cost(cycle.problem(), labels), least, 1e-12 * (1 + least));
   }
+  EXPECT_GT(solved, 3000);
+  EXPECT_GT(unsolvable, 100);
+}
+
+TEST(TargetAngles, WhereTheBoundaryBeginsIsAllTheSame) {
+  Rng rng(6);
+  for (int trial = 0; trial < 400; ++trial) {
+    SCOPED_TRACE(trial);
+    SmallCycle cycle(trial, rng);
+    const std::vector<int> before = target_angles(cycle.problem());
+    const double cost_before = before.empty() ? 0 : cost(cycle.problem(), before);
+    std::rotate(cycle.lengths.begin(), cycle.lengths.begin() + 2, cycle.lengths.end());
+    std::rotate(cycle.angles.begin(), cycle.angles.begin() + 2, cycle.angles.end());
+    for (std::size_t i = cycle.angles.size() - 2; i < cycle.angles.size(); ++i) cycle.angles[i] += 2 * pi;
+    const std::vector<int> after = target_angles(cycle.problem());
+    ASSERT_EQ(after.empty(), before.empty());
+    if (after.empty()) continue;
+    EXPECT_NEAR(cost(cycle.problem(), after), cost_before, 1e-12 * (1 + cost_before));
+  }
+}
+
+TEST(TargetAngles, SegmentsOfManyEdgesKeepTheirLengthAllRound) {
+  Rng rng(7);
+  for (int trial = 0; trial < 20; ++trial) {
+    const int n = 300;
+    std::vector<double> lengths(n, 1), angles;
+    for (int i = 0; i < n; ++i) angles.push_back(2 * pi * i / n + 2 * std::sin(40 * pi * i / n) + rng.uniform(-1, 1));
+    const TargetProblem problem{lengths, angles, 0.5, 20};
+    const std::vector<int> labels = target_angles(problem);
+    ASSERT_EQ(labels.size(), angles.size());
+    EXPECT_TRUE(allowed(labels));
+    EXPECT_GE(shortest_segment(problem, labels), 20);
+  }
+}
+
+TEST(TargetAngles, NoneWhereFourSegmentsDoNotFit) {
+  const std::vector<double> lengths(8, 1), angles = {0, 0, pi / 2, pi / 2, pi, pi, 1.5 * pi, 1.5 * pi};
+  EXPECT_EQ(target_angles({lengths, angles, 0.1, 2}).size(), 8u);
+  EXPECT_TRUE(target_angles({lengths, angles, 0.1, 2.01}).empty());
 }
 
 TEST(TargetAngles, KeepTheirRulesOnEveryShape) {

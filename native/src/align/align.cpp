@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "align/deform.h"
@@ -24,11 +25,14 @@ constexpr double kCornerCost = 2.5;
 constexpr double kLeastSegment = 2;  // shortest side of the axis-aligned chart, in sigmas
 // Where a deformation fails, a finer and then a coarser sigma are tried: a closer likeness, then fewer corners.
 constexpr double kSigmas[] = {1, 0.6, 2.5};
+constexpr double kSigmaOfWidth = 0.125;  // the sigma of a strip, whose ends else are short: so much of its mean width
 // Lines nearer than this many sigmas are made one, unless that raises E_d - 1 by more than the factor.
 constexpr double kSameLine[] = {0.5, 0.1, 1e-3, 1e-6};
 constexpr double kMergeCost = 1.05;
+constexpr double kFreeMerge = 1e-8;  // E_d that merging may always cost: a flat chart has none to multiply
+constexpr double kAligned = 0.01;    // rad off an axis at most: a boundary that runs along the axes as it is
 constexpr int kLeastTriangles = 4;   // charts of fewer are packed as they are
-constexpr double kTooDistorted = 4;  // E_d of an axis-aligned chart that is not worth it
+constexpr double kTooDistorted = 4;  // E_d of an axis-aligned chart that is not worth it, unless it was more before
 
 void rotate(Chart& chart, double angle) {
   const Mat2 rotation = Eigen::Rotation2Dd(angle).toRotationMatrix();
@@ -41,8 +45,8 @@ bool positive(const Chart& chart, const std::vector<Vec2>& uvs) {
 }
 
 std::vector<int> targets(const BoundaryAngles& boundary, const std::vector<double>& angles, double sigma, double corner_cost) {
-  const double length = sigma * boundary.perimeter();
-  return target_angles({boundary.lengths, angles, corner_cost * length, kLeastSegment * length});
+  const double perimeter = boundary.perimeter();
+  return target_angles({boundary.lengths, angles, corner_cost * perimeter, kLeastSegment * sigma * perimeter});
 }
 
 /// Tutte's embedding onto the rectangle whose corners suit the boundary best.
@@ -112,101 +116,152 @@ std::vector<Vec2> merged_lines(const std::vector<Vec2>& uvs, const std::vector<i
   return out;
 }
 
-class Aligner {
- public:
-  Aligner(const Chart& source, double sigma, Monitor& monitor) : source_(source), sigma_(sigma), monitor_(monitor) {}
-
-  AxisAlignedChart run() {
-    PreparedChart prepared = prepare_chart(source_);
-    AxisAlignedChart out{.way = AxisAlignedChart::Way::AsItIs, .mesh = SplitMesh(source_), .boundary = {}, .quarter_turns = {}};
-    if (!prepared.opening.is_disk || source_.triangles.size() < kLeastTriangles) return as_it_is(std::move(out));
-    out.holes_cut = prepared.opening.holes_cut;
-    chart_ = prepared.mesh.to_chart(source_);
-    auto uvs = deformed(out);
-    if (!uvs) uvs = rectangle(out);
-    if (!uvs) return as_it_is(std::move(out));
-    out.mesh = std::move(prepared.mesh);
-    out.mesh.uvs = std::move(*uvs);
-    return out;
-  }
-
- private:
-  /// At its own scale, turned so that its bounding box is small.
-  AxisAlignedChart as_it_is(AxisAlignedChart out) {
-    out.holes_cut = 0;
-    const double scale = dirichlet_sums(source_).best_scale();
-    double best = std::numeric_limits<double>::infinity();
-    constexpr int kTurns = 45;
-    for (int k = 0; k < kTurns; ++k) {
-      Chart turned = source_;
-      rotate(turned, 0.5 * std::numbers::pi * k / kTurns);
-      if (uv_box({turned}).area() >= best) continue;
-      best = uv_box({turned}).area();
-      out.mesh.uvs = turned.uvs;
-    }
-    for (Vec2& uv : out.mesh.uvs) uv *= scale;
-    return out;
-  }
-
-  std::optional<std::vector<Vec2>> deformed(AxisAlignedChart& out) {
-    for (const double factor : kSigmas) {
-      const double sigma = factor * sigma_;
-      Chart chart = chart_;
-      BoundaryAngles boundary = polar_angles(chart);
-      std::vector<double> angles = smoothed_angles(boundary, sigma * boundary.perimeter());
-      const double turn = aligning_rotation(boundary.lengths, angles);
-      rotate(chart, turn);
-      for (double& angle : angles) angle += turn;
-      for (double& angle : boundary.angle_rad) angle += turn;
-      out.quarter_turns = targets(boundary, angles, sigma, kCornerCost);
-      if (out.quarter_turns.empty()) continue;
-      auto shape = deform_to_axes(chart, {boundary, out.quarter_turns}, [&] { monitor_.check(); });
-      if (!shape) continue;
-      out.way = AxisAlignedChart::Way::Deformed;
-      out.quarter_turns = std::move(shape->quarter_turns);
-      return accepted(boundary, std::move(shape->uvs), out);
-    }
-    return std::nullopt;
-  }
-
-  std::optional<std::vector<Vec2>> rectangle(AxisAlignedChart& out) {
-    constexpr double kOnlyFour = 1e3;
-    const BoundaryAngles boundary = polar_angles(chart_);
-    const std::vector<double> angles = smoothed_angles(boundary, sigma_ * boundary.perimeter());
-    out.quarter_turns = targets(boundary, angles, sigma_, kOnlyFour);
-    if (out.quarter_turns.empty()) return std::nullopt;
-    const auto uvs = onto_rectangle(chart_, boundary, out.quarter_turns);
-    if (!uvs) return std::nullopt;
-    out.way = AxisAlignedChart::Way::Rectangle;
-    return accepted(boundary, *uvs, out);
-  }
-
-  /// In surface units; nothing where the chart would be bent beyond use.
-  std::optional<std::vector<Vec2>> accepted(const BoundaryAngles& boundary, std::vector<Vec2> uvs, AxisAlignedChart& out) const {
-    Chart aligned = chart_;
-    aligned.uvs = uvs;
-    double energy = dirichlet_sums(aligned).best_energy();
-    if (!(energy < kTooDistorted)) return std::nullopt;
-    bool merged = false;
-    for (const double tolerance : kSameLine) {
-      aligned.uvs = merged_lines(uvs, boundary.vertices, out.quarter_turns, tolerance * sigma_ * boundary.perimeter());
-      if (!positive(aligned, aligned.uvs) || dirichlet_sums(aligned).best_energy() - 1 > kMergeCost * (energy - 1)) continue;
-      uvs = aligned.uvs;
-      merged = true;
-      break;
-    }
-    if (!merged) return std::nullopt;  // two lines that cannot be told apart, and a hair of the chart between them
-    const DirichletSums sums = dirichlet_sums(aligned);
-    for (Vec2& uv : uvs) uv *= sums.best_scale();
-    out.boundary = boundary.vertices;
-    return uvs;
-  }
-
-  const Chart& source_;
-  double sigma_;
-  Monitor& monitor_;
-  Chart chart_;
+/// A prepared chart whose boundary edges are axis-parallel.
+struct AlignedDisk {
+  AxisAlignedChart::Way way;
+  std::vector<int> boundary;
+  std::vector<int> quarter_turns;
+  std::vector<Vec2> uvs;
+  double energy = 0;  // E_d
 };
+
+/// With near lines made one, in surface units, E_d known; nothing where that fails.
+std::optional<AlignedDisk> finished(Chart chart, AlignedDisk disk, double sigma_length) {
+  chart.uvs = disk.uvs;
+  const double energy = dirichlet_sums(chart).best_energy();
+  for (const double tolerance : kSameLine) {
+    chart.uvs = merged_lines(disk.uvs, disk.boundary, disk.quarter_turns, tolerance * sigma_length);
+    if (!positive(chart, chart.uvs)) continue;
+    const DirichletSums sums = dirichlet_sums(chart);
+    if (!(sums.best_energy() - 1 <= kMergeCost * (energy - 1) + kFreeMerge)) continue;
+    disk.energy = sums.best_energy();
+    disk.uvs = std::move(chart.uvs);
+    for (Vec2& uv : disk.uvs) uv *= sums.best_scale();
+    return disk;
+  }
+  return std::nullopt;  // two lines that cannot be told apart, and a hair of the chart between them
+}
+
+/// Length of each segment between corners. There must be one.
+std::vector<double> segment_lengths(const BoundaryAngles& boundary, const std::vector<int>& turns) {
+  const int n = boundary.size();
+  const auto first = std::find_if(turns.begin(), turns.end(), [](int k) { return k != 0; }) - turns.begin();
+  std::vector<double> lengths;
+  for (int k = 0; k < n; ++k) {
+    const int i = static_cast<int>((first + k) % n);
+    if (turns[i] != 0) lengths.push_back(0);
+    lengths.back() += boundary.lengths[i];
+  }
+  return lengths;
+}
+
+/// The boundary's own directions, turned by `turn_rad`, where it runs along the axes already and, unless it is a rectangle, no
+/// segment is too short.
+std::vector<int> own_directions(const BoundaryAngles& boundary, double turn_rad, double sigma) {
+  std::vector<int> quarter_turns;
+  for (const double angle : boundary.angle_rad) {
+    const double quarters = (angle + turn_rad) / (0.5 * std::numbers::pi);
+    quarter_turns.push_back(static_cast<int>(std::lround(quarters)));
+    if (std::abs(quarters - quarter_turns.back()) * 0.5 * std::numbers::pi > kAligned) return {};
+  }
+  const std::vector<int> turns = corner_turns(quarter_turns);
+  if (std::any_of(turns.begin(), turns.end(), [](int k) { return k > 1 || k < -2; })) return {};
+  const std::vector<double> lengths = segment_lengths(boundary, turns);
+  const double shortest = *std::min_element(lengths.begin(), lengths.end());
+  if (lengths.size() > 4 && shortest < kLeastSegment * sigma * boundary.perimeter()) return {};
+  return quarter_turns;
+}
+
+/// Turns the chart to the axes that its boundary suggests and deforms it until it runs along them.
+std::optional<AlignedDisk> deformed(Chart chart, BoundaryAngles boundary, double turn_rad, const std::vector<int>& quarter_turns,
+                                    Monitor& monitor) {
+  if (quarter_turns.empty()) return std::nullopt;
+  rotate(chart, turn_rad);
+  for (double& angle : boundary.angle_rad) angle += turn_rad;
+  auto shape = deform_to_axes(chart, {boundary, quarter_turns}, [&] { monitor.check(); });
+  if (!shape) return std::nullopt;
+  return AlignedDisk{AxisAlignedChart::Way::Deformed, boundary.vertices, std::move(shape->quarter_turns), std::move(shape->uvs)};
+}
+
+/// As its boundary runs already.
+std::optional<AlignedDisk> kept(const Chart& chart, double sigma, Monitor& monitor) {
+  const BoundaryAngles boundary = polar_angles(chart);
+  const double turn_rad = aligning_rotation(boundary.lengths, boundary.angle_rad);
+  return deformed(chart, boundary, turn_rad, own_directions(boundary, turn_rad, sigma), monitor);
+}
+
+/// By smoothing of width `sigma`, as a fraction of the boundary; `corner_cost` in the same unit.
+std::optional<AlignedDisk> smoothed(const Chart& chart, double sigma, double corner_cost, Monitor& monitor) {
+  const BoundaryAngles boundary = polar_angles(chart);
+  std::vector<double> angles = smoothed_angles(boundary, sigma * boundary.perimeter());
+  const double turn_rad = aligning_rotation(boundary.lengths, angles);
+  for (double& angle : angles) angle += turn_rad;
+  return deformed(chart, boundary, turn_rad, targets(boundary, angles, sigma, corner_cost), monitor);
+}
+
+std::optional<AlignedDisk> rectangle(const Chart& chart, double sigma) {
+  constexpr double kOnlyFour = 1e3;
+  const BoundaryAngles boundary = polar_angles(chart);
+  const std::vector<double> angles = smoothed_angles(boundary, sigma * boundary.perimeter());
+  const std::vector<int> quarter_turns = targets(boundary, angles, sigma, kOnlyFour * sigma);
+  if (quarter_turns.empty()) return std::nullopt;
+  auto uvs = onto_rectangle(chart, boundary, quarter_turns);
+  if (!uvs) return std::nullopt;
+  return AlignedDisk{AxisAlignedChart::Way::Rectangle, boundary.vertices, quarter_turns, std::move(*uvs)};
+}
+
+/// At its own scale, turned so that its bounding box is small.
+AxisAlignedChart as_it_is(const Chart& source) {
+  AxisAlignedChart out{.way = AxisAlignedChart::Way::AsItIs, .mesh = SplitMesh(source), .boundary = {}, .quarter_turns = {}};
+  const double scale = dirichlet_sums(source).best_scale();
+  double best = std::numeric_limits<double>::infinity();
+  constexpr int kTurns = 45;
+  for (int k = 0; k < kTurns; ++k) {
+    Chart turned = source;
+    rotate(turned, 0.5 * std::numbers::pi * k / kTurns);
+    if (uv_box({turned}).area() >= best) continue;
+    best = uv_box({turned}).area();
+    out.mesh.uvs = turned.uvs;
+  }
+  for (Vec2& uv : out.mesh.uvs) uv *= scale;
+  return out;
+}
+
+/// As its boundary runs, else by smoothing with finer, then coarser sigmas, with that of a strip, at last as a rectangle: the
+/// first that is not too distorted. Where all are, the least, if the chart was worse before.
+std::optional<AlignedDisk> aligned_disk(const Chart& chart, double sigma, Monitor& monitor) {
+  const double perimeter = polar_angles(chart).perimeter();
+  std::vector<std::function<std::optional<AlignedDisk>()>> attempts = {[&] { return kept(chart, sigma, monitor); }};
+  for (const double factor : kSigmas)
+    attempts.emplace_back([&, factor] { return smoothed(chart, factor * sigma, kCornerCost * factor * sigma, monitor); });
+  const double sigma_of_width = kSigmaOfWidth * 2 * uv_area(chart) / (perimeter * perimeter);
+  if (sigma_of_width < sigma)
+    attempts.emplace_back([&] { return smoothed(chart, sigma_of_width, kCornerCost * sigma, monitor); });
+  attempts.emplace_back([&] { return rectangle(chart, sigma); });
+  std::optional<AlignedDisk> best;
+  for (const auto& attempt : attempts) {
+    std::optional<AlignedDisk> disk = attempt();
+    if (disk) disk = finished(chart, std::move(*disk), sigma * perimeter);
+    if (disk && (!best || disk->energy < best->energy)) best = std::move(disk);
+    if (best && best->energy < kTooDistorted) return best;
+  }
+  return best && best->energy < dirichlet_sums(chart).best_energy() ? best : std::nullopt;
+}
+
+AxisAlignedChart align(const Chart& source, double sigma, Monitor& monitor) {
+  if (source.triangles.size() < kLeastTriangles) return as_it_is(source);
+  PreparedChart prepared = prepare_chart(source);
+  if (!prepared.opening.is_disk) return as_it_is(source);
+  const Chart chart = prepared.mesh.to_chart(source);
+  std::optional<AlignedDisk> disk = aligned_disk(chart, sigma, monitor);
+  if (!disk) return as_it_is(source);
+  prepared.mesh.uvs = std::move(disk->uvs);
+  return {.way = disk->way,
+          .mesh = std::move(prepared.mesh),
+          .boundary = std::move(disk->boundary),
+          .quarter_turns = std::move(disk->quarter_turns),
+          .holes_cut = prepared.opening.holes_cut};
+}
 
 }  // namespace
 
@@ -215,7 +270,7 @@ std::vector<AxisAlignedChart> align_charts(const std::vector<Chart>& charts, con
   std::atomic<int> done = 0;
   parallel_ranges(static_cast<int>(charts.size()), options.threads, 1, [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
-      slots[c] = Aligner(charts[c], options.sigma, monitor).run();
+      slots[c] = align(charts[c], options.sigma, monitor);
       monitor.report(static_cast<double>(++done) / static_cast<double>(charts.size()));
     }
   });

@@ -6,12 +6,10 @@
 #include <limits>
 #include <numbers>
 
-#include "geometry/collision.h"
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
 #include "measure/distortion.h"
-#include "solve/block_ldlt.h"
-#include "solve/symmetric_dirichlet.h"
+#include "solve/newton.h"
 
 namespace atlas_refine {
 namespace {
@@ -29,253 +27,223 @@ constexpr double kShrunken = 0.02;    // an edge with so little of its length le
 constexpr int kMostSlides = 12;       // rounds of corners moving along the boundary
 constexpr double kSlideLambda = 1e3;  // to turn edges with that have got a new direction
 constexpr double kFlatEnough = 1e-3;  // flattening may change E_d - 1 by this much, relative
+constexpr Damping kDamping = {1e-9, 100, 1e3};
 
+/// A boundary edge on its way to its target. Lengths are such that the surface has area 1.
+struct Edge {
+  int from, to;
+  double share;   // of the boundary's length
+  double length;  // in the input
+  int quarter_turns;
+  double angle_rad;  // at present
+
+  double off_target() const { return angle_rad - kQuarter * quarter_turns; }
+  Vec2 direction() const {
+    const int d = ((quarter_turns % 4) + 4) % 4;
+    const double sign = d < 2 ? 1 : -1;
+    return d % 2 == 0 ? Vec2(sign, 0) : Vec2(0, sign);
+  }
+  /// Across its target axis.
+  Vec2 normal() const { return quarter_turns % 2 == 0 ? Vec2(0, 1) : Vec2(1, 0); }
+  Vec2 vector(const std::vector<Vec2>& x) const { return x[to] - x[from]; }
+  /// What is left of it along its target axis.
+  double along(const std::vector<Vec2>& x) const { return direction().dot(vector(x)); }
+  bool is_shrunken(const std::vector<Vec2>& x) const { return along(x) < kShrunken * length; }
+};
+
+std::vector<Edge> edges_of(const AlignTarget& target, double scale) {
+  const BoundaryAngles& boundary = target.boundary;
+  const double perimeter = boundary.perimeter();
+  std::vector<Edge> edges;
+  for (int i = 0; i < boundary.size(); ++i) {
+    edges.push_back({.from = boundary.vertices[i],
+                     .to = boundary.vertices[(i + 1) % boundary.size()],
+                     .share = boundary.lengths[i] / perimeter,
+                     .length = scale * boundary.lengths[i],
+                     .quarter_turns = target.quarter_turns[i],
+                     .angle_rad = boundary.angle_rad[i]});
+  }
+  return edges;
+}
+
+std::vector<int> quarter_turns_of(const std::vector<Edge>& edges) {
+  std::vector<int> turns;
+  for (const Edge& edge : edges) turns.push_back(edge.quarter_turns);
+  return turns;
+}
+
+double largest_turn(const std::vector<Edge>& edges) {
+  double largest = 0;
+  for (const Edge& edge : edges) largest = std::max(largest, std::abs(edge.off_target()));
+  return largest;
+}
+
+/// Shrunken edges beside a corner take the direction on its other side; false where none can.
+bool slide_corners(std::vector<Edge>& edges, const std::vector<Vec2>& x) {
+  const int n = static_cast<int>(edges.size());
+  bool any = false;
+  for (int i = 0; i < n; ++i) {
+    Edge& edge = edges[i];
+    if (!edge.is_shrunken(x)) continue;
+    const int before = i > 0 ? edges[i - 1].quarter_turns : edges[n - 1].quarter_turns - 4;
+    const int after = i + 1 < n ? edges[i + 1].quarter_turns : edges[0].quarter_turns + 4;
+    const int own = edge.quarter_turns;
+    const auto off = [&](int label) { return std::abs(edge.angle_rad - kQuarter * label); };
+    for (const int label : {before, after}) {
+      const bool allowed = label - before <= 1 && after - label <= 1 && label - before >= -2 && after - label >= -2;
+      if (label == own || !allowed) continue;
+      if (edge.quarter_turns == own || off(label) < off(edge.quarter_turns)) edge.quarter_turns = label;
+    }
+    any = any || edge.quarter_turns != own;
+  }
+  return any;
+}
+
+/// Polar angle of an edge at `x`, continued from the present one at `before`: no edge turns by more than pi in one step.
+double angle_at(const Edge& edge, const std::vector<Vec2>& before, const std::vector<Vec2>& x) {
+  const Vec2 old = edge.vector(before), present = edge.vector(x);
+  return edge.angle_rad + std::atan2(cross(old, present), old.dot(present));
+}
+
+/// How the boundary is pulled: eq. (8)'s angle term, or in its place the deviation from the axis.
+struct Pull {
+  double lambda = 1;
+  bool to_axis = false;
+};
+
+/// Eq. (8) without lambda.
+double alignment(const std::vector<Edge>& edges, bool to_axis, const std::vector<Vec2>& before, const std::vector<Vec2>& x) {
+  double sum = 0;
+  for (const Edge& edge : edges) {
+    const double off =
+        to_axis ? edge.normal().dot(edge.vector(x)) / edge.length : angle_at(edge, before, x) - kQuarter * edge.quarter_turns;
+    sum += 0.5 * edge.share * off * off;
+  }
+  return sum;
+}
+
+double length_term(const std::vector<Edge>& edges, const std::vector<Vec2>& x) {
+  double sum = 0;
+  for (const Edge& edge : edges) {
+    const double off = edge.vector(x).norm() / edge.length - 1;
+    sum += 0.5 * kLengthWeight * edge.share * off * off;
+  }
+  return sum;
+}
+
+/// Residuals r with weight w: gradient w r dr, Gauss-Newton Hessian w dr dr^T.
+void add_edge(const Edge& edge, const Pull& pull, const std::vector<Vec2>& x, BlockSystem& system) {
+  const Vec2 vector = edge.vector(x);
+  const double length = vector.norm();
+  const auto add_residual = [&](double weight, double residual, const Vec2& slope) {
+    const Mat2 stiff = weight * slope * slope.transpose();
+    system.gradient[edge.to] += weight * residual * slope;
+    system.gradient[edge.from] -= weight * residual * slope;
+    system.matrix.diagonal[edge.from] += stiff;
+    system.matrix.diagonal[edge.to] += stiff;
+    system.matrix.off_diagonal[system.matrix.slot(edge.from, edge.to)] -= stiff;
+  };
+  add_residual(kLengthWeight * edge.share, length / edge.length - 1, vector / (length * edge.length));
+  if (pull.to_axis)
+    add_residual(pull.lambda * edge.share, edge.normal().dot(vector) / edge.length, edge.normal() / edge.length);
+  else
+    add_residual(pull.lambda * edge.share, edge.off_target(), Vec2(-vector.y(), vector.x()) / (length * length));
+}
+
+/// Short of the first edge that would run against its direction.
+double forward_fraction(const std::vector<Edge>& edges, const std::vector<Vec2>& x, const std::vector<Vec2>& step, double limit) {
+  for (const Edge& edge : edges) {
+    const double change = edge.along(step);
+    if (change < 0) limit = std::min(limit, kShortOf * edge.along(x) / -change);
+  }
+  return limit;
+}
+
+/// The chart while it is deformed, in units in which its surface has area 1.
 class Deformation {
  public:
-  Deformation(const Chart& chart, const AlignTarget& target) : boundary_(target.boundary), turns_(target.quarter_turns) {
-    double surface = 0;
-    for (const RestTriangle& rest : chart.surface) surface += rest.area;
-    scale_ = dirichlet_sums(chart).best_scale() / std::sqrt(surface);
-    for (const Vec2& uv : chart.uvs) x_.push_back(scale_ * uv);
-    triangles_ = chart.triangles;
-    rest_.assign(chart.surface.begin(), chart.surface.end());
-    for (RestTriangle& rest : rest_) {
-      rest.inverse_edges *= std::sqrt(surface);
-      rest.area /= surface;
-    }
-    perimeter_ = boundary_.perimeter();
-    angle_ = boundary_.angle_rad;
-    std::vector<std::pair<int, int>> edges;
-    for (const Triangle& t : triangles_) {
-      for (int k = 0; k < 3; ++k) edges.emplace_back(t[k], t[(k + 1) % 3]);
-    }
-    matrix_.analyse(static_cast<int>(x_.size()), edges);
-    for (const Triangle& t : triangles_) {
-      triangle_slots_.push_back({matrix_.slot(t[0], t[1]), matrix_.slot(t[1], t[2]), matrix_.slot(t[2], t[0])});
-    }
+  Deformation(const Chart& chart, const AlignTarget& target)
+      : boundary_(target.boundary), triangles_(chart.triangles), objective_(make_objective({chart})) {
+    const double scale = dirichlet_sums(chart).best_scale() / objective_.unit;
+    for (const Vec2& uv : chart.uvs) x_.push_back(scale * uv);
+    edges_ = edges_of(target, scale);
+    masses_.assign(x_.size(), 1);
+    system_.matrix.analyse(static_cast<int>(x_.size()), triangle_sides(triangles_));
+    slots_ = triangle_slots(system_.matrix, triangles_);
   }
 
   std::optional<AlignedShape> run(const std::function<void()>& poll) {
-    lambda_ = std::clamp(distortion(x_) / std::max(alignment(x_, angle_), 1e-12), 1.0, 100.0);
+    pull_.lambda = std::clamp(distortion(x_) / std::max(alignment(edges_, false, x_, x_), 1e-12), 1.0, 100.0);
     for (int slide = 0; slide <= kMostSlides; ++slide) {
       if (!turn(poll)) return std::nullopt;
-      if (const auto flat = draw(poll)) return AlignedShape{*flat, turns_};
-      if (!slide_corners()) return std::nullopt;
-      to_axis_ = false;
-      lambda_ = kSlideLambda;
+      if (auto flat = draw(poll)) return AlignedShape{std::move(*flat), quarter_turns_of(edges_)};
+      if (!slide_corners(edges_, x_)) return std::nullopt;
+      pull_ = {kSlideLambda, false};
     }
     return std::nullopt;
   }
 
  private:
+  double distortion(const std::vector<Vec2>& x) const { return dirichlet_energy(objective_, triangles_, x); }
+
   /// Turns the edges towards their directions with a growing lambda; false where they do not follow.
   bool turn(const std::function<void()>& poll) {
-    for (int round = 0; round < kTurnRounds && largest_turn() > kTurned; ++round) {
-      for (int k = 0; k < kTurnIterations && largest_turn() > kTurned; ++k) {
+    for (int round = 0; round < kTurnRounds && largest_turn(edges_) > kTurned; ++round) {
+      for (int k = 0; k < kTurnIterations && largest_turn(edges_) > kTurned; ++k) {
         poll();
         if (!iterate()) return false;
       }
-      lambda_ *= kGrowth;
+      pull_.lambda *= kGrowth;
     }
-    return largest_turn() < 1;
+    return largest_turn(edges_) < 1;
   }
 
   /// Draws the edges to their axes until they can be laid flat; nothing where one is in the way.
   std::optional<std::vector<Vec2>> draw(const std::function<void()>& poll) {
-    to_axis_ = true;
-    for (lambda_ = std::max(lambda_, 100.0); lambda_ < kMostLambda; lambda_ *= kAxisGrowth) {
+    for (pull_ = {std::max(pull_.lambda, 100.0), true}; pull_.lambda < kMostLambda; pull_.lambda *= kAxisGrowth) {
       poll();
       if (!iterate()) return std::nullopt;
       if (auto flat = flat_result()) return flat;
-      if (shrunken_edge() >= 0) return std::nullopt;
+      if (std::any_of(edges_.begin(), edges_.end(), [&](const Edge& edge) { return edge.is_shrunken(x_); })) return std::nullopt;
     }
     return std::nullopt;
   }
 
-  /// An edge that has next to no length left along its axis, -1 where there is none.
-  int shrunken_edge() const {
-    for (int i = 0; i < static_cast<int>(angle_.size()); ++i) {
-      if (direction(i).dot(x_[edge_end(i)] - x_[edge_start(i)]) < kShrunken * input_length(i)) return i;
-    }
-    return -1;
-  }
-
-  /// Shrunken edges beside a corner take the direction on its other side; false where none can.
-  bool slide_corners() {
-    const int n = static_cast<int>(turns_.size());
-    bool any = false;
-    for (int i = 0; i < n; ++i) {
-      if (direction(i).dot(x_[edge_end(i)] - x_[edge_start(i)]) >= kShrunken * input_length(i)) continue;
-      const int before = i > 0 ? turns_[i - 1] : turns_[n - 1] - 4, after = i + 1 < n ? turns_[i + 1] : turns_[0] + 4;
-      int best = turns_[i];
-      for (const int label : {before, after}) {
-        const bool allowed = label - before <= 1 && after - label <= 1 && label - before >= -2 && after - label >= -2;
-        if (label == turns_[i] || !allowed) continue;
-        if (best == turns_[i] || std::abs(angle_[i] - kQuarter * label) < std::abs(angle_[i] - kQuarter * best)) best = label;
-      }
-      any = any || best != turns_[i];
-      turns_[i] = best;
-    }
-    return any;
-  }
-
-  int edge_start(int i) const { return boundary_.vertices[i]; }
-  int edge_end(int i) const { return boundary_.vertices[(i + 1) % boundary_.size()]; }
-
-  double distortion(const std::vector<Vec2>& x) const {
-    double sum = 0;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      const Triangle& v = triangles_[t];
-      sum += rest_[t].area * symmetric_dirichlet(jacobian(rest_[t].inverse_edges, x[v[0]], x[v[1]], x[v[2]]));
-    }
-    return sum;
-  }
-
-  /// Polar angles at `x`, continued from the present ones: no edge turns by more than pi in one step.
-  std::vector<double> angles_at(const std::vector<Vec2>& x) const {
-    std::vector<double> out(angle_.size());
-    for (int i = 0; i < static_cast<int>(out.size()); ++i) {
-      const Vec2 before = x_[edge_end(i)] - x_[edge_start(i)], after = x[edge_end(i)] - x[edge_start(i)];
-      out[i] = angle_[i] + std::atan2(cross(before, after), before.dot(after));
-    }
-    return out;
-  }
-
-  double largest_turn() const {
-    double largest = 0;
-    for (std::size_t i = 0; i < angle_.size(); ++i) {
-      largest = std::max(largest, std::abs(angle_[i] - kQuarter * turns_[i]));
-    }
-    return largest;
-  }
-
-  double share(int i) const { return boundary_.lengths[i] / perimeter_; }
-  double input_length(int i) const { return scale_ * boundary_.lengths[i]; }
-  /// Of the target axis.
-  Vec2 direction(int i) const {
-    const int d = ((turns_[i] % 4) + 4) % 4;
-    const double sign = d < 2 ? 1 : -1;
-    return d % 2 == 0 ? Vec2(sign, 0) : Vec2(0, sign);
-  }
-  /// Across its target axis.
-  Vec2 normal(int i) const { return turns_[i] % 2 == 0 ? Vec2(0, 1) : Vec2(1, 0); }
-
-  /// Eq. (8) without lambda; in its second form the deviation from the axis stands for the angle.
-  double alignment(const std::vector<Vec2>& x, const std::vector<double>& angles) const {
-    double sum = 0;
-    for (int i = 0; i < static_cast<int>(angles.size()); ++i) {
-      const Vec2 edge = x[edge_end(i)] - x[edge_start(i)];
-      const double off = to_axis_ ? normal(i).dot(edge) / input_length(i) : angles[i] - kQuarter * turns_[i];
-      sum += 0.5 * share(i) * off * off;
-    }
-    return sum;
-  }
-  double length_term(const std::vector<Vec2>& x) const {
-    double sum = 0;
-    for (int i = 0; i < static_cast<int>(angle_.size()); ++i) {
-      const double off = (x[edge_end(i)] - x[edge_start(i)]).norm() / input_length(i) - 1;
-      sum += 0.5 * kLengthWeight * share(i) * off * off;
-    }
-    return sum;
-  }
-  double objective(const std::vector<Vec2>& x) const {
-    return distortion(x) + length_term(x) + lambda_ * alignment(x, angles_at(x));
-  }
-
-  void assemble() {
-    matrix_.set_zero();
-    gradient_.assign(x_.size(), Vec2::Zero());
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      const Triangle& v = triangles_[t];
-      const double weight = rest_[t].area;
-      const auto d = symmetric_dirichlet_derivatives(rest_[t].inverse_edges, x_[v[0]], x_[v[1]], x_[v[2]]);
-      for (int k = 0; k < 3; ++k) {
-        gradient_[v[k]] += weight * d.gradient[k];
-        matrix_.diagonal[v[k]] += weight * d.diagonal[k];
-        const Mat2 block = weight * d.off_diagonal[k];
-        Mat2& slot = matrix_.off_diagonal[triangle_slots_[t][k]];
-        if (v[k] < v[(k + 1) % 3])
-          slot += block;
-        else
-          slot += block.transpose();
-      }
-    }
-    for (int i = 0; i < static_cast<int>(angle_.size()); ++i) add_edge(i);
-  }
-
-  /// Residuals r with weight w: gradient w r dr, Gauss-Newton Hessian w dr dr^T.
-  void add_edge(int i) {
-    const int a = edge_start(i), b = edge_end(i);
-    const Vec2 edge = x_[b] - x_[a];
-    const double length = edge.norm();
-    const auto add = [&](double weight, double residual, const Vec2& slope) {
-      const Mat2 stiff = weight * slope * slope.transpose();
-      gradient_[b] += weight * residual * slope;
-      gradient_[a] -= weight * residual * slope;
-      matrix_.diagonal[a] += stiff;
-      matrix_.diagonal[b] += stiff;
-      matrix_.off_diagonal[matrix_.slot(a, b)] -= stiff;
-    };
-    add(kLengthWeight * share(i), length / input_length(i) - 1, edge / (length * input_length(i)));
-    if (to_axis_)
-      add(lambda_ * share(i), normal(i).dot(edge) / input_length(i), normal(i) / input_length(i));
-    else
-      add(lambda_ * share(i), angle_[i] - kQuarter * turns_[i], Vec2(-edge.y(), edge.x()) / (length * length));
+  double merit(const std::vector<Vec2>& x) const {
+    return distortion(x) + length_term(edges_, x) + pull_.lambda * alignment(edges_, pull_.to_axis, x_, x);
   }
 
   /// One Newton step with a line search; false where none reduces the objective.
   bool iterate() {
-    assemble();
-    for (double damping = 1e-9; !factor_damped(damping); damping *= 100) {
-      if (damping > 1e3) return false;
-      assemble();
-    }
-    std::vector<Vec2> step = gradient_;
-    matrix_.solve(step);
-    double slope = 0;
-    for (std::size_t v = 0; v < step.size(); ++v) {
-      step[v] = -step[v];
-      slope += gradient_[v].dot(step[v]);
-    }
-    const double limit = longest_step(step);
-    const double before = objective(x_);
-    for (double fraction = limit; fraction > 1e-8; fraction *= 0.5) {
-      std::vector<Vec2> trial = x_;
+    system_.set_zero();
+    add_dirichlet(objective_, triangles_, slots_, x_, 1, system_);
+    for (const Edge& edge : edges_) add_edge(edge, pull_, x_, system_);
+    if (!factor_damped(system_, masses_, kDamping)) return false;
+    const std::vector<Vec2> step = newton_direction(system_);
+    const double slope = dot(system_.gradient, step);
+    double limit = flip_free_fraction(triangles_, x_, step, 1, kShortOf);
+    if (pull_.to_axis) limit = forward_fraction(edges_, x_, step, limit);
+    std::vector<Vec2> trial;
+    const auto merit_at = [&](double fraction) {
+      trial = x_;
       for (std::size_t v = 0; v < trial.size(); ++v) trial[v] += fraction * step[v];
-      if (!(objective(trial) <= before + 1e-4 * fraction * slope)) continue;
-      angle_ = angles_at(trial);
-      x_ = std::move(trial);
-      return true;
-    }
-    return slope > -1e-9 * std::abs(before);  // at the minimum already
+      return merit(trial);
+    };
+    const double before = merit(x_);
+    if (line_search(limit, before, slope, merit_at) == 0) return slope > -1e-9 * std::abs(before);  // at the minimum already
+    for (Edge& edge : edges_) edge.angle_rad = angle_at(edge, x_, trial);
+    x_ = std::move(trial);
+    return true;
   }
 
-  /// Short of the first flip; and while edges are drawn to their axis, of the first that would run against its direction.
-  double longest_step(const std::vector<Vec2>& step) const {
-    double limit = 1;
-    for (const Triangle& t : triangles_) {
-      const auto moving = [&](int k) { return Moving{x_[t[k]], step[t[k]]}; };
-      limit = std::min(limit, kShortOf * flip_time(moving(0), moving(1), moving(2)));
-    }
-    for (int i = 0; to_axis_ && i < static_cast<int>(angle_.size()); ++i) {
-      const double along = direction(i).dot(x_[edge_end(i)] - x_[edge_start(i)]);
-      const double change = direction(i).dot(step[edge_end(i)] - step[edge_start(i)]);
-      if (change < 0) limit = std::min(limit, kShortOf * along / -change);
-    }
-    return limit;
-  }
-  bool factor_damped(double damping) {
-    for (Mat2& block : matrix_.diagonal) block.diagonal().array() += damping;
-    return matrix_.factor();
-  }
-
+  /// The chart with its boundary laid flat, if that is next to nothing more.
   std::optional<std::vector<Vec2>> flat_result() const {
-    std::vector<Vec2> flat = flattened(x_, {boundary_, turns_});
+    std::vector<Vec2> flat = flattened(x_, {boundary_, quarter_turns_of(edges_)});
     for (const Triangle& t : triangles_) {
       if (orientation(flat[t[0]], flat[t[1]], flat[t[2]]) <= 0) return std::nullopt;
     }
-    for (int i = 0; i < static_cast<int>(angle_.size()); ++i) {
-      if (!(direction(i).dot(flat[edge_end(i)] - flat[edge_start(i)]) > 0)) return std::nullopt;
+    for (const Edge& edge : edges_) {
+      if (!(edge.along(flat) > 0)) return std::nullopt;
     }
     const double energy = distortion(x_), flat_energy = distortion(flat);
     if (!(flat_energy - energy <= kFlatEnough * (energy - 1) + 1e-6)) return std::nullopt;
@@ -283,16 +251,14 @@ class Deformation {
   }
 
   const BoundaryAngles& boundary_;
-  std::vector<int> turns_;
+  const std::vector<Triangle>& triangles_;
+  Objective objective_;
+  std::vector<Edge> edges_;
   std::vector<Vec2> x_;
-  std::vector<Triangle> triangles_;
-  std::vector<RestTriangle> rest_;
-  std::vector<std::array<int, 3>> triangle_slots_;
-  std::vector<double> angle_;
-  std::vector<Vec2> gradient_;
-  BlockLdlt matrix_;
-  double perimeter_ = 0, scale_ = 1, lambda_ = 1;
-  bool to_axis_ = false;
+  std::vector<double> masses_;  // for the damping
+  TriangleSlots slots_;
+  BlockSystem system_;
+  Pull pull_;
 };
 
 }  // namespace

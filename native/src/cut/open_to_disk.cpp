@@ -7,19 +7,41 @@
 namespace atlas_refine {
 namespace {
 
+// Where paths are equally long one that ends in corners is taken, which leaves no short sides: what another end costs, as a
+// fraction of its loop's length, and the cosine of the turn below which it is a corner.
+constexpr double kStraightEnd = 1e-7;
+constexpr double kCornerCosine = 0.9;
+
+/// Per vertex of the loops, what a path that ends there costs beyond its length; 0 elsewhere.
+std::vector<double> end_costs(const SplitMesh& mesh, const std::vector<std::vector<int>>& loops) {
+  std::vector<double> costs(mesh.vertex_count(), 0);
+  for (const std::vector<int>& loop : loops) {
+    const std::size_t n = loop.size();
+    const auto edge = [&](std::size_t i) -> Vec2 { return mesh.uvs[loop[(i + 1) % n]] - mesh.uvs[loop[i]]; };
+    double length = 0;
+    for (std::size_t i = 0; i < n; ++i) length += edge(i).norm();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2 before = edge((i + n - 1) % n), after = edge(i);
+      if (before.dot(after) > kCornerCosine * before.norm() * after.norm()) costs[loop[i]] = kStraightEnd * length;
+    }
+  }
+  return costs;
+}
+
 /// The shortest edge path from one boundary loop (not the first) to any other: as sides, from its one end to the other.
 std::vector<Side> path_between_loops(const SplitMesh& mesh, const std::vector<std::vector<int>>& loops) {
   std::vector<int> loop_of(mesh.vertex_count(), -1);
   for (std::size_t l = 0; l < loops.size(); ++l) {
     for (int v : loops[l]) loop_of[v] = static_cast<int>(l);
   }
+  const std::vector<double> end_cost = end_costs(mesh, loops);
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   std::vector<double> distance(mesh.vertex_count(), std::numeric_limits<double>::infinity());
   std::vector<Side> reached_by(mesh.vertex_count());
   for (int v : loops[1]) {
-    distance[v] = 0;
-    queue.emplace(0, v);
+    distance[v] = end_cost[v];
+    queue.emplace(distance[v], v);
   }
   while (!queue.empty()) {
     const auto [d, v] = queue.top();
@@ -32,7 +54,7 @@ std::vector<Side> path_between_loops(const SplitMesh& mesh, const std::vector<st
     }
     for (const Side& s : mesh.fan(v)) {
       const int w = mesh.to(s);
-      const double through = d + (mesh.uvs[w] - mesh.uvs[v]).norm();
+      const double through = d + (mesh.uvs[w] - mesh.uvs[v]).norm() + end_cost[w];
       if (mesh.is_boundary(s) || through >= distance[w]) continue;
       distance[w] = through;
       reached_by[w] = s;

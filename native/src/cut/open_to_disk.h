@@ -11,7 +11,8 @@ struct Opening {
   bool is_disk = false;  ///< false where the chart has a handle or no boundary
 };
 
-/// Cuts the mesh along shortest edge paths (in the UV plane) between its boundary loops until it has one.
+/// Cuts the mesh along shortest edge paths (in the UV plane) between its boundary loops until it has one; of equally short paths
+/// along one that ends in corners.
 Opening open_to_disk(SplitMesh& mesh);
 
 }  // namespace atlas_refine

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "measure/distortion.h"
+
 namespace atlas_refine {
 namespace {
 
@@ -17,16 +19,18 @@ constexpr int kNotableSides = 4;  // widths are also taken from the sides of so 
 /// Where a rectangle goes in the gap that it fills.
 enum class Side { Left, ByHigher, ByLower };
 
-Vec2 box_around(const Vec2& size, double aspect) {
-  if (aspect == 0) return size;
-  const double height = std::max(size.y(), size.x() / aspect);
-  return {aspect * height, height};
-}
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// One strip at a time; the buffers are kept.
-class Skyline {
+/// Rectangles as they may be laid, wide ones first; those that are used up are skipped.
+class Stock {
  public:
-  explicit Skyline(const std::vector<Vec2>& sizes) : sizes_(sizes) {
+  struct Entry {
+    double width, height;
+    int rectangle;
+    bool turned;
+  };
+
+  explicit Stock(const std::vector<Vec2>& sizes) : used_(sizes.size()) {
     for (int r = 0; r < static_cast<int>(sizes.size()); ++r) {
       entries_.push_back({sizes[r].x(), sizes[r].y(), r, false});
       if (sizes[r].x() != sizes[r].y()) entries_.push_back({sizes[r].y(), sizes[r].x(), r, true});
@@ -36,52 +40,22 @@ class Skyline {
     });
   }
 
-  /// Largest extent of the packing, infinite where a rectangle is too wide.
-  Vec2 pack(double strip, Side side, RectanglePacking& out) {
-    const int count = static_cast<int>(sizes_.size());
-    used_.assign(count, 0);
+  void fill() {
+    std::fill(used_.begin(), used_.end(), 0);
     next_.resize(entries_.size() + 1);
     std::iota(next_.begin(), next_.end(), 0);
-    line_.assign(1, {0, strip, 0});
-    out.positions.resize(count);
-    out.turned.resize(count);
-    Vec2 extent = Vec2::Zero();
-    for (int placed = 0; placed < count;) {
-      const std::size_t low = lowest();
-      const int entry = widest_within(line_[low].width);
-      if (entry == static_cast<int>(entries_.size())) {
-        if (line_.size() == 1) return Vec2::Constant(std::numeric_limits<double>::infinity());
-        raise(low);
-        continue;
-      }
-      const Entry& e = entries_[entry];
-      used_[e.rectangle] = 1;
-      ++placed;
-      const double x = place(low, e, side);
-      out.positions[e.rectangle] = {x, placed_at_};
-      out.turned[e.rectangle] = e.turned;
-      extent = extent.cwiseMax(Vec2(x + e.width, placed_at_ + e.height));
-    }
-    return extent;
+  }
+
+  /// Takes out the widest one that fits; null where none does.
+  const Entry* take(double width) {
+    const auto first = std::partition_point(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.width > width; });
+    const int entry = skip_used(std::max(static_cast<int>(first - entries_.begin()), next_[first - entries_.begin()]));
+    if (entry == static_cast<int>(entries_.size())) return nullptr;
+    used_[entries_[entry].rectangle] = 1;
+    return &entries_[entry];
   }
 
  private:
-  struct Entry {
-    double width, height;
-    int rectangle;
-    bool turned;
-  };
-  struct Step {
-    double x, width, height;
-  };
-
-  std::size_t lowest() const {
-    std::size_t low = 0;
-    for (std::size_t k = 1; k < line_.size(); ++k) {
-      if (line_[k].height < line_[low].height) low = k;
-    }
-    return low;
-  }
   int skip_used(int entry) {
     int end = entry;
     while (end < static_cast<int>(entries_.size()) && used_[entries_[end].rectangle]) end = std::max(end + 1, next_[end + 1]);
@@ -92,39 +66,47 @@ class Skyline {
     }
     return end;
   }
-  int widest_within(double width) {
-    const auto first = std::partition_point(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.width > width; });
-    return skip_used(std::max(static_cast<int>(first - entries_.begin()), next_[first - entries_.begin()]));
+
+  std::vector<Entry> entries_;
+  std::vector<int> next_;  // a later entry before which all are used
+  std::vector<char> used_;
+};
+
+/// The upper border of what has been laid, as steps from left to right.
+class Skyline {
+ public:
+  struct Step {
+    double x, width, height;
+  };
+
+  void start(double strip) { line_.assign(1, {0, strip, 0}); }
+
+  std::size_t lowest() const {
+    std::size_t low = 0;
+    for (std::size_t k = 1; k < line_.size(); ++k) {
+      if (line_[k].height < line_[low].height) low = k;
+    }
+    return low;
   }
-  double wall(std::size_t k, int way) const {
-    const std::size_t other = k + way;
-    return other < line_.size() ? line_[other].height : std::numeric_limits<double>::infinity();
-  }
-  /// Lifts a step that nothing fits into to its lower neighbour.
-  void raise(std::size_t k) {
-    const double height = std::min(k > 0 ? wall(k, -1) : std::numeric_limits<double>::infinity(), wall(k, 1));
-    line_[k].height = height;
+  const Step& step(std::size_t k) const { return line_[k]; }
+
+  /// Lifts a step that nothing fits into to its lower neighbour; false where it has none.
+  bool raise(std::size_t k) {
+    if (line_.size() == 1) return false;
+    line_[k].height = std::min(left_wall(k), right_wall(k));
     merge(k);
+    return true;
   }
-  void merge(std::size_t k) {
-    if (k + 1 < line_.size() && line_[k + 1].height == line_[k].height) {
-      line_[k].width += line_[k + 1].width;
-      line_.erase(line_.begin() + k + 1);
-    }
-    if (k > 0 && line_[k - 1].height == line_[k].height) {
-      line_[k - 1].width += line_[k].width;
-      line_.erase(line_.begin() + k);
-    }
-  }
-  double place(std::size_t k, const Entry& e, Side side) {
-    const double left = k > 0 ? wall(k, -1) : std::numeric_limits<double>::infinity(), right = wall(k, 1);
+
+  /// Lays a rectangle on step k and returns its min corner.
+  Vec2 place(std::size_t k, double width, double height, Side side) {
+    const double left = left_wall(k), right = right_wall(k);
     const bool at_left = side == Side::Left || (side == Side::ByHigher ? left >= right : left <= right);
     Step& step = line_[k];
-    placed_at_ = step.height;
-    const double x = at_left ? step.x : step.x + step.width - e.width;
-    const Step top{x, e.width, step.height + e.height};
-    step.width -= e.width;
-    if (at_left) step.x += e.width;
+    const Vec2 corner(at_left ? step.x : step.x + step.width - width, step.height);
+    const Step top{corner.x(), width, step.height + height};
+    step.width -= width;
+    if (at_left) step.x += width;
     if (step.width <= 0) {
       line_[k] = top;
       merge(k);
@@ -135,16 +117,46 @@ class Skyline {
       line_.insert(line_.begin() + k + 1, top);
       merge(k + 1);
     }
-    return x;
+    return corner;
   }
 
-  const std::vector<Vec2>& sizes_;
-  std::vector<Entry> entries_;
-  std::vector<int> next_;
-  std::vector<char> used_;
+ private:
+  double left_wall(std::size_t k) const { return k > 0 ? line_[k - 1].height : kInfinite; }
+  double right_wall(std::size_t k) const { return k + 1 < line_.size() ? line_[k + 1].height : kInfinite; }
+  void merge(std::size_t k) {
+    if (k + 1 < line_.size() && line_[k + 1].height == line_[k].height) {
+      line_[k].width += line_[k + 1].width;
+      line_.erase(line_.begin() + k + 1);
+    }
+    if (k > 0 && line_[k - 1].height == line_[k].height) {
+      line_[k - 1].width += line_[k].width;
+      line_.erase(line_.begin() + k);
+    }
+  }
+
   std::vector<Step> line_;
-  double placed_at_ = 0;
 };
+
+/// Fills a strip; returns the largest extent of the packing, infinite where a rectangle is too wide.
+Vec2 pack_strip(Stock& stock, Skyline& skyline, double strip, Side side, RectanglePacking& out) {
+  stock.fill();
+  skyline.start(strip);
+  Vec2 extent = Vec2::Zero();
+  for (std::size_t placed = 0; placed < out.positions.size();) {
+    const std::size_t low = skyline.lowest();
+    const Stock::Entry* entry = stock.take(skyline.step(low).width);
+    if (!entry) {
+      if (!skyline.raise(low)) return Vec2::Constant(kInfinite);
+      continue;
+    }
+    const Vec2 corner = skyline.place(low, entry->width, entry->height, side);
+    out.positions[entry->rectangle] = corner;
+    out.turned[entry->rectangle] = entry->turned;
+    extent = extent.cwiseMax(corner + Vec2(entry->width, entry->height));
+    ++placed;
+  }
+  return extent;
+}
 
 /// Strip widths that deserve a try: evenly spread aspects, and what the largest rectangles would fill.
 std::vector<double> strip_widths(const std::vector<Vec2>& sizes, double aspect) {
@@ -181,14 +193,15 @@ std::vector<double> strip_widths(const std::vector<Vec2>& sizes, double aspect) 
 RectanglePacking pack_rectangles(const std::vector<Vec2>& sizes, double padding, double box_aspect) {
   std::vector<Vec2> padded;
   for (const Vec2& s : sizes) padded.push_back(s + Vec2::Constant(padding));
-  Skyline skyline(padded);
-  RectanglePacking best, trial;
-  double best_area = std::numeric_limits<double>::infinity();
+  Stock stock(padded);
+  Skyline skyline;
+  RectanglePacking best, trial{std::vector<Vec2>(sizes.size()), std::vector<char>(sizes.size()), {}};
+  double best_area = kInfinite;
   for (const double width : strip_widths(padded, box_aspect)) {
     for (const Side side : {Side::Left, Side::ByHigher, Side::ByLower}) {
-      const Vec2 extent = skyline.pack(width, side, trial);
+      const Vec2 extent = pack_strip(stock, skyline, width, side, trial);
       if (!std::isfinite(extent.x())) continue;
-      trial.box = box_around(extent - Vec2::Constant(padding), box_aspect);
+      trial.box = box_of_aspect({Vec2::Zero(), extent - Vec2::Constant(padding)}, box_aspect).size();
       if (trial.box.prod() >= best_area) continue;
       best_area = trial.box.prod();
       best = trial;
