@@ -7,8 +7,8 @@
 
 namespace atlas_refine {
 
-/// The hull's corners, counterclockwise from the leftmost, lowest one, no three of them collinear: the points themselves, each
-/// once. Fewer than three where all points lie on one line.
+/// The points that are the hull's corners, each once, counterclockwise, no three of them collinear. Fewer than three where all
+/// points lie on one line.
 std::vector<Vec2> convex_hull(const std::vector<Vec2>& points);
 
 }  // namespace atlas_refine
