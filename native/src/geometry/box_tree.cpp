@@ -1,13 +1,12 @@
 // Leaves along the order of the items, halved in space above them.
 #include "geometry/box_tree.h"
 
-#include <numeric>
-
 namespace atlas_refine {
 
 namespace {
 
 constexpr int kLeafItems = 16;
+constexpr int kNodeLeaves = 4;
 
 }  // namespace
 
@@ -21,33 +20,29 @@ BoxTree::BoxTree(std::vector<Box> boxes, const std::vector<int>& labels) : boxes
     }
     leaves_.push_back({box, begin, end, labels[begin]});
   }
-  std::vector<int> order(leaves_.size());
-  std::iota(order.begin(), order.end(), 0);
-  nodes_.reserve(2 * leaves_.size());
-  if (!leaves_.empty()) build(order, 0, static_cast<int>(leaves_.size()));
+  sorted_ = leaves_;
+  nodes_.reserve(leaves_.size() + 1);
+  if (!leaves_.empty()) build(0, static_cast<int>(leaves_.size()));
 }
 
-int BoxTree::build(std::vector<int>& order, int begin, int end) {
+int BoxTree::build(int begin, int end) {
   const int index = static_cast<int>(nodes_.size());
-  const Leaf& first = leaves_[order[begin]];
-  Node node{first.box, end - begin == 1 ? order[begin] : -1, 0, first.label, first.label};
-  for (int i = begin + 1; i < end; ++i) {
-    const Leaf& leaf = leaves_[order[i]];
-    node.box = united(node.box, leaf.box);
-    node.low_label = std::min(node.low_label, leaf.label);
-    node.high_label = std::max(node.high_label, leaf.label);
+  Node node{sorted_[begin].box, begin, end, 0, sorted_[begin].label, sorted_[begin].label};
+  for (int k = begin + 1; k < end; ++k) {
+    node.box = united(node.box, sorted_[k].box);
+    node.low_label = std::min(node.low_label, sorted_[k].label);
+    node.high_label = std::max(node.high_label, sorted_[k].label);
   }
   nodes_.push_back(node);
-  if (node.leaf >= 0) return index;
+  if (end - begin <= kNodeLeaves) return index;
   const int axis = node.box.size().x() >= node.box.size().y() ? 0 : 1;
   const int middle = begin + (end - begin) / 2;
-  std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end, [&](int a, int b) {
-    const Box &p = leaves_[a].box, &q = leaves_[b].box;
-    const double ca = p.min[axis] + p.max[axis], cb = q.min[axis] + q.max[axis];
-    return ca != cb ? ca < cb : a < b;
+  std::nth_element(sorted_.begin() + begin, sorted_.begin() + middle, sorted_.begin() + end, [&](const Leaf& a, const Leaf& b) {
+    const double ca = a.box.min[axis] + a.box.max[axis], cb = b.box.min[axis] + b.box.max[axis];
+    return ca != cb ? ca < cb : a.begin < b.begin;
   });
-  build(order, begin, middle);
-  nodes_[index].right = build(order, middle, end);
+  build(begin, middle);
+  nodes_[index].right = build(middle, end);
   return index;
 }
 

@@ -11,7 +11,8 @@ namespace atlas_refine {
 
 /// The closed boxes have a point in common.
 inline bool overlap(const Box& a, const Box& b) {
-  return a.min.x() <= b.max.x() && b.min.x() <= a.max.x() && a.min.y() <= b.max.y() && b.min.y() <= a.max.y();
+  // Without branches: in the searches each of the four is as likely to hold as not.
+  return (a.min.x() <= b.max.x()) & (b.min.x() <= a.max.x()) & (a.min.y() <= b.max.y()) & (b.min.y() <= a.max.y());
 }
 
 /// The smallest box that holds both.
@@ -58,12 +59,12 @@ class BoxTree {
  private:
   struct Node {
     Box box;
-    int leaf;   ///< -1 for a node with children
-    int right;  ///< second child; the first one follows its parent
+    int begin, end;  ///< range in sorted_
+    int right;       ///< second child, the first one follows its parent; 0 for a node without children
     int low_label, high_label;
   };
 
-  int build(std::vector<int>& order, int begin, int end);
+  int build(int begin, int end);
 
   bool reachable(const Node& node, const Box& query, double radius, int left_out) const {
     return !(node.low_label == left_out && node.high_label == left_out) && box_distance(node.box, query) <= radius;
@@ -73,9 +74,13 @@ class BoxTree {
   bool descend(int index, const Box& query, const double& radius, int left_out, Visit& visit) const {
     const Node& node = nodes_[index];
     if (!reachable(node, query, radius, left_out)) return true;
-    if (node.leaf >= 0) {
-      for (int item = leaves_[node.leaf].begin; item < leaves_[node.leaf].end; ++item) {
-        if (box_distance(boxes_[item], query) <= radius && !visit(item)) return false;
+    if (node.right == 0) {
+      for (int k = node.begin; k < node.end; ++k) {
+        const Leaf& leaf = sorted_[k];
+        if (leaf.label == left_out || box_distance(leaf.box, query) > radius) continue;
+        for (int item = leaf.begin; item < leaf.end; ++item) {
+          if (box_distance(boxes_[item], query) <= radius && !visit(item)) return false;
+        }
       }
       return true;
     }
@@ -88,13 +93,19 @@ class BoxTree {
   void descend_to_leaves(int index, const Box& query, Visit& visit) const {
     const Node& node = nodes_[index];
     if (!overlap(node.box, query)) return;
-    if (node.leaf >= 0) return visit(leaves_[node.leaf]);
+    if (node.right == 0) {
+      for (int k = node.begin; k < node.end; ++k) {
+        if (overlap(sorted_[k].box, query)) visit(sorted_[k]);
+      }
+      return;
+    }
     descend_to_leaves(index + 1, query, visit);
     descend_to_leaves(node.right, query, visit);
   }
 
   std::vector<Box> boxes_;
   std::vector<Leaf> leaves_;
+  std::vector<Leaf> sorted_;  ///< the same, in space
   std::vector<Node> nodes_;
 };
 
