@@ -79,8 +79,10 @@ bool back_to_back(const Atlas& atlas, const EdgeJoins& joins, const EdgeUse& a, 
 
 /// Joins where exactly two uses have equal UVs; returns those that are alone with theirs.
 std::vector<EdgeUse> join_equal_uvs(const Atlas& atlas, std::vector<EdgeUse> group, bool share_vertices, EdgeJoins& joins) {
-  const auto less = [&](const EdgeUse& a, const EdgeUse& b) { return a.uv_key(atlas) < b.uv_key(atlas); };
-  std::stable_sort(group.begin(), group.end(), less);
+  std::sort(group.begin(), group.end(), [&](const EdgeUse& a, const EdgeUse& b) {
+    const auto ka = a.uv_key(atlas), kb = b.uv_key(atlas);
+    return ka != kb ? ka < kb : a.sort_key() < b.sort_key();
+  });
   std::vector<EdgeUse> single;
   const auto same = [&](const EdgeUse& a, const EdgeUse& b) { return a.uv_key(atlas) == b.uv_key(atlas); };
   for_each_range(group, same, [&](EdgeUses range) {

@@ -2,6 +2,7 @@
 #include "input/triangulate_faces.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "geometry/plane.h"
@@ -12,23 +13,12 @@ namespace atlas_refine {
 
 namespace {
 
-/// A face as its chart sees it: counterclockwise where the chart is sound.
-struct Polygon {
-  std::vector<int> vertices;  ///< of the chart
-  std::vector<Vec2> uvs;
-  std::vector<Vec3> positions;
-};
-
-Polygon polygon_of(const Atlas& atlas, const std::vector<CornerRef>& corners, int face, bool turned, const Chart& chart) {
-  Polygon polygon;
-  const int first = atlas.face_offsets[face], end = atlas.face_offsets[face + 1];
-  for (int k = first; k < end; ++k) {
-    const int c = turned && k > first ? first + end - k : k;
-    polygon.vertices.push_back(corners[c].vertex);
-    polygon.uvs.push_back(chart.uvs[corners[c].vertex]);
-    polygon.positions.push_back(atlas.positions[atlas.corner_vertices[c]]);
-  }
-  return polygon;
+/// The corners of a face in the order that its chart has them in.
+std::vector<int> face_corners(const Atlas& atlas, int face, bool turned) {
+  std::vector<int> corners(atlas.face_offsets[face + 1] - atlas.face_offsets[face]);
+  std::iota(corners.begin(), corners.end(), atlas.face_offsets[face]);
+  if (turned) std::reverse(corners.begin() + 1, corners.end());
+  return corners;
 }
 
 /// What is wrong with a face that has no positive triangulation.
@@ -45,11 +35,15 @@ FaceDefect::Kind defect_of(const std::vector<Vec2>& uvs) {
   return uvs.size() > 3 && doubled > 0 ? FaceDefect::Kind::CrossesItself : FaceDefect::Kind::Flipped;
 }
 
-/// Nothing where the face has no positive triangulation.
-std::optional<std::vector<Triangle>> positive_triangles(const Polygon& polygon) {
-  if (polygon.uvs.size() > 3) return triangulate_polygon(polygon.uvs, polygon.positions);
-  if (orientation(polygon.uvs[0], polygon.uvs[1], polygon.uvs[2]) <= 0) return std::nullopt;
-  return polygon_fan(3);
+/// Triangles over the corners of a face; nothing where they cannot all be positive.
+std::optional<std::vector<Triangle>> positive_triangles(const Atlas& atlas, const std::vector<int>& corners,
+                                                        const std::vector<Vec2>& uvs) {
+  if (uvs.size() == 3) {
+    return orientation(uvs[0], uvs[1], uvs[2]) > 0 ? std::optional(polygon_fan(3)) : std::nullopt;
+  }
+  std::vector<Vec3> positions;
+  for (int c : corners) positions.push_back(atlas.positions[atlas.corner_vertices[c]]);
+  return triangulate_polygon(uvs, positions);
 }
 
 }  // namespace
@@ -57,17 +51,20 @@ std::optional<std::vector<Triangle>> positive_triangles(const Polygon& polygon) 
 std::vector<FaceDefect> triangulate_faces(const Atlas& atlas, const std::vector<CornerRef>& corners,
                                           const std::vector<bool>& turned_faces, std::vector<Chart>& charts) {
   std::vector<FaceDefect> defects;
+  std::vector<Vec2> uvs;
   for (int face = 0; face < atlas.face_count(); ++face) {
-    const int k = corners[atlas.face_offsets[face]].chart;
+    const std::vector<int> own = face_corners(atlas, face, turned_faces[face]);
+    const int k = corners[own[0]].chart;
     Chart& chart = charts[k];
-    const Polygon polygon = polygon_of(atlas, corners, face, turned_faces[face], chart);
-    std::optional<std::vector<Triangle>> triangles = positive_triangles(polygon);
+    uvs.clear();
+    for (int c : own) uvs.push_back(chart.uvs[corners[c].vertex]);
+    std::optional<std::vector<Triangle>> triangles = positive_triangles(atlas, own, uvs);
     if (!triangles) {
-      defects.push_back({k, face, defect_of(polygon.uvs)});
-      triangles = polygon_fan(static_cast<int>(polygon.uvs.size()));
+      defects.push_back({k, face, defect_of(uvs)});
+      triangles = polygon_fan(static_cast<int>(own.size()));
     }
     for (const Triangle& t : *triangles) {
-      chart.triangles.push_back({polygon.vertices[t[0]], polygon.vertices[t[1]], polygon.vertices[t[2]]});
+      chart.triangles.push_back({corners[own[t[0]]].vertex, corners[own[t[1]]].vertex, corners[own[t[2]]].vertex});
       chart.triangle_faces.push_back(face);
     }
   }
