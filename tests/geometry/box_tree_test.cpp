@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "support/rng.h"
@@ -62,12 +63,45 @@ TEST(BoxTree, AShrinkingRadiusFindsTheNearest) {
   }
 }
 
+TEST(BoxTree, LeavesHoldTheItemsInOrderAndOneLabelEach) {
+  const Items items = random_items(500);
+  const BoxTree tree(items.boxes, items.labels);
+  int next = 0;
+  for (const BoxTree::Leaf& leaf : tree.leaves()) {
+    EXPECT_EQ(leaf.begin, next);
+    ASSERT_LT(leaf.begin, leaf.end);
+    for (int item = leaf.begin; item < leaf.end; ++item) {
+      EXPECT_EQ(items.labels[item], leaf.label);
+      EXPECT_EQ(united(leaf.box, items.boxes[item]).size(), leaf.box.size());
+    }
+    next = leaf.end;
+  }
+  EXPECT_EQ(next, 500);
+}
+
+TEST(BoxTree, LeavesThatOverlapAreFound) {
+  Items items = random_items(500);
+  std::sort(items.labels.begin(), items.labels.end());  // long runs, so that leaves are full
+  const BoxTree tree(items.boxes, items.labels);
+  EXPECT_LT(tree.leaves().size(), 50u);
+  for (int i = 0; i < 50; ++i) {
+    std::vector<int> found, expected;
+    tree.visit_leaves(items.boxes[i], [&](const BoxTree::Leaf& leaf) { found.push_back(leaf.begin); });
+    for (const BoxTree::Leaf& leaf : tree.leaves()) {
+      if (overlap(leaf.box, items.boxes[i])) expected.push_back(leaf.begin);
+    }
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+  }
+}
+
 TEST(BoxTree, NothingInNothing) {
   const BoxTree tree({}, {});
   tree.visit_within({}, 1.0, -1, [](int) {
     ADD_FAILURE();
     return true;
   });
+  tree.visit_leaves({}, [](const BoxTree::Leaf&) { ADD_FAILURE(); });
 }
 
 }  // namespace

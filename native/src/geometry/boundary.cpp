@@ -1,4 +1,4 @@
-// Flat boundaries and the grid search for near pairs.
+// Flat boundaries and the search for near pairs.
 #include "geometry/boundary.h"
 
 #include <Eigen/LU>
@@ -6,10 +6,11 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/box_tree.h"
+#include "geometry/plane.h"
+
 namespace atlas_refine {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Surface length of every boundary edge of a chart, keyed by (start, end).
 std::map<std::pair<int, int>, double> surface_lengths(const Chart& chart) {
@@ -31,69 +32,27 @@ std::map<std::pair<int, int>, double> surface_lengths(const Chart& chart) {
   return lengths;
 }
 
-struct Bounds {
-  Vec2 low, high;
-};
-
-Bounds swept_bounds(const Vec2& a, const Vec2& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
-Bounds united(const Bounds& a, const Bounds& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
-bool overlap(const Bounds& a, const Bounds& b) {
-  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+/// The boxes that the boundary vertices sweep.
+std::vector<Box> swept_points(const Boundary& boundary, const std::vector<Vec2>& positions,
+                              const std::vector<Vec2>& displacements) {
+  std::vector<Box> points;
+  points.reserve(boundary.size());
+  for (int v : boundary.vertex) {
+    const Vec2& from = positions[v];
+    const Vec2 to = displacements.empty() ? from : Vec2(from + displacements[v]);
+    points.push_back({from.cwiseMin(to), from.cwiseMax(to)});
+  }
+  return points;
 }
 
-/// Uniform grid over edge bounds, stored as one array sorted by cell.
-class EdgeGrid {
- public:
-  EdgeGrid(const std::vector<Bounds>& edges, double radius) {
-    Bounds all = edges.front();
-    double extent = 0;
-    for (const Bounds& b : edges) {
-      all = united(all, b);
-      extent += (b.high - b.low).sum();
-    }
-    const Vec2 size = all.high - all.low;
-    const double count = static_cast<double>(edges.size());
-    // Cells as large as a typical edge and the radius, but not many more of them than edges.
-    cell_ = std::max({extent / count, 2 * radius, std::sqrt(size.x() * size.y() / (4 * count)), size.maxCoeff() / 4096, 1e-300});
-    low_ = all.low;
-    columns_ = 1 + static_cast<int>(size.x() / cell_);
-    rows_ = 1 + static_cast<int>(size.y() / cell_);
-    start_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
-    for (const Bounds& b : edges) for_cells(b, [&](int cell) { ++start_[cell + 1]; });
-    for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
-    members_.resize(start_.back());
-    std::vector<int> fill(start_.begin(), start_.end() - 1);
-    for (int e = 0; e < static_cast<int>(edges.size()); ++e) {
-      for_cells(edges[e], [&](int cell) { members_[fill[cell]++] = e; });
-    }
-  }
+BoxTree tree_of_edges(const Boundary& boundary, const std::vector<Box>& points) {
+  std::vector<Box> edges;
+  edges.reserve(boundary.size());
+  for (int e = 0; e < boundary.size(); ++e) edges.push_back(united(points[e], points[boundary.next[e]]));
+  return {std::move(edges), boundary.loop};
+}
 
-  template <class Visit>
-  void for_members(const Bounds& bounds, Visit visit) const {
-    for_cells(bounds, [&](int cell) {
-      for (int k = start_[cell]; k < start_[cell + 1]; ++k) visit(members_[k]);
-    });
-  }
-
- private:
-  int clamped(double offset, int count) const {
-    return static_cast<int>(std::clamp(std::floor(offset / cell_), 0.0, static_cast<double>(count - 1)));
-  }
-  template <class Visit>
-  void for_cells(const Bounds& b, Visit visit) const {
-    const int x0 = clamped(b.low.x() - low_.x(), columns_), x1 = clamped(b.high.x() - low_.x(), columns_);
-    const int y0 = clamped(b.low.y() - low_.y(), rows_), y1 = clamped(b.high.y() - low_.y(), rows_);
-    for (int y = y0; y <= y1; ++y) {
-      for (int x = x0; x <= x1; ++x) visit(y * columns_ + x);
-    }
-  }
-
-  double cell_;
-  Vec2 low_;
-  int columns_, rows_;
-  std::vector<int> start_;
-  std::vector<int> members_;
-};
+Box grown(const Box& box, double radius) { return {box.min.array() - radius, box.max.array() + radius}; }
 
 /// True where `direction` points out of the chart at boundary vertex v.
 bool points_outside(const Boundary& boundary, const std::vector<Vec2>& positions, int v, const Vec2& direction) {
@@ -141,30 +100,28 @@ Boundary make_boundary(const std::vector<Chart>& charts, const std::vector<int>&
 
 std::vector<PointEdge> near_pairs(const Boundary& boundary, const std::vector<Vec2>& positions,
                                   const std::vector<Vec2>& displacements, double radius) {
-  const int n = boundary.size();
+  const std::vector<Box> points = swept_points(boundary, positions, displacements);
+  const BoxTree tree = tree_of_edges(boundary, points);
   std::vector<PointEdge> pairs;
-  if (n == 0) return pairs;
-  std::vector<Bounds> points(n);
-  for (int i = 0; i < n; ++i) {
-    const Vec2& p = positions[boundary.vertex[i]];
-    points[i] = displacements.empty() ? Bounds{p, p} : swept_bounds(p, p + displacements[boundary.vertex[i]]);
-  }
-  std::vector<Bounds> edges(n);
-  for (int e = 0; e < n; ++e) edges[e] = united(points[e], points[boundary.next[e]]);
-  const EdgeGrid grid(edges, radius);
-  std::vector<int> seen(n, -1);
-  std::vector<int> found;
-  for (int i = 0; i < n; ++i) {
-    const Bounds reach{points[i].low.array() - radius, points[i].high.array() + radius};
-    found.clear();
-    grid.for_members(reach, [&](int e) {
-      if (seen[e] == i || e == i || boundary.next[e] == i) return;
-      seen[e] = i;
-      if (boundary.chart[e] == boundary.chart[i] && boundary.loop[e] != boundary.loop[i]) return;
-      if (overlap(reach, edges[e])) found.push_back(e);
+  std::vector<BoxTree::Leaf> near;
+  for (const BoxTree::Leaf& leaf : tree.leaves()) {
+    Box reach = points[leaf.begin];
+    for (int i = leaf.begin + 1; i < leaf.end; ++i) reach = united(reach, points[i]);
+    near.clear();
+    tree.visit_leaves(grown(reach, radius), [&](const BoxTree::Leaf& other) {
+      if (other.label == leaf.label || boundary.chart[other.begin] != boundary.chart[leaf.begin]) near.push_back(other);
     });
-    std::sort(found.begin(), found.end());
-    for (int e : found) pairs.push_back({i, e});
+    std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+    for (int i = leaf.begin; i < leaf.end; ++i) {
+      const Box around = grown(points[i], radius);
+      const int before = boundary.previous[i];
+      for (const BoxTree::Leaf& other : near) {
+        if (!overlap(other.box, around)) continue;
+        for (int e = other.begin; e < other.end; ++e) {
+          if (overlap(around, tree.box(e)) && e != i && e != before) pairs.push_back({i, e});
+        }
+      }
+    }
   }
   return pairs;
 }

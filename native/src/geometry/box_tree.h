@@ -9,6 +9,15 @@
 
 namespace atlas_refine {
 
+/// The closed boxes have a point in common.
+inline bool overlap(const Box& a, const Box& b) {
+  // Without branches: in the searches each of the four is as likely to hold as not.
+  return (a.min.x() <= b.max.x()) & (b.min.x() <= a.max.x()) & (a.min.y() <= b.max.y()) & (b.min.y() <= a.max.y());
+}
+
+/// The smallest box that holds both.
+inline Box united(const Box& a, const Box& b) { return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)}; }
+
 /// Distance between two boxes, 0 where they overlap.
 inline double box_distance(const Box& a, const Box& b) {
   const double dx = std::max({0.0, b.min.x() - a.max.x(), a.min.x() - b.max.x()});
@@ -16,10 +25,23 @@ inline double box_distance(const Box& a, const Box& b) {
   return std::sqrt(dx * dx + dy * dy);
 }
 
+/// Quick to build where items that follow each other lie near each other, as the edges of a boundary do: runs of such items
+/// share a leaf, and only leaves are sorted in space.
 class BoxTree {
  public:
-  /// One box and one label for each item. Labels only serve to leave items out of a query.
-  BoxTree(std::vector<Box> boxes, std::vector<int> labels);
+  /// Items [begin, end), of one label.
+  struct Leaf {
+    Box box;
+    int begin, end;
+    int label;
+  };
+
+  /// One box and one label for each item. Labels serve to leave items out of a query; leaves hold one label each.
+  BoxTree(std::vector<Box> boxes, const std::vector<int>& labels);
+
+  const Box& box(int item) const { return boxes_[item]; }
+  /// In the order of their items, which they hold without gaps.
+  const std::vector<Leaf>& leaves() const { return leaves_; }
 
   /// Calls visit(item) -> bool for the items whose box is within `radius` of `query`, near subtrees first, until it returns
   /// false. `radius` is read anew at every step, so a visit may shrink it. Items labelled `left_out` are skipped, -1 = none.
@@ -28,11 +50,17 @@ class BoxTree {
     if (!nodes_.empty()) descend(0, query, radius, left_out, visit);
   }
 
+  /// Calls visit(leaf) for the leaves whose box overlaps the query, in any order.
+  template <class Visit>
+  void visit_leaves(const Box& query, Visit&& visit) const {
+    if (!nodes_.empty()) descend_to_leaves(0, query, visit);
+  }
+
  private:
   struct Node {
     Box box;
-    int begin, end;  ///< range in order_
-    int right;       ///< second child, the first one follows its parent; 0 in a leaf
+    int begin, end;  ///< range in sorted_
+    int right;       ///< second child, the first one follows its parent; 0 for a node without children
     int low_label, high_label;
   };
 
@@ -47,9 +75,12 @@ class BoxTree {
     const Node& node = nodes_[index];
     if (!reachable(node, query, radius, left_out)) return true;
     if (node.right == 0) {
-      for (int i = node.begin; i < node.end; ++i) {
-        const int item = order_[i];
-        if (labels_[item] != left_out && box_distance(boxes_[item], query) <= radius && !visit(item)) return false;
+      for (int k = node.begin; k < node.end; ++k) {
+        const Leaf& leaf = sorted_[k];
+        if (leaf.label == left_out || box_distance(leaf.box, query) > radius) continue;
+        for (int item = leaf.begin; item < leaf.end; ++item) {
+          if (box_distance(boxes_[item], query) <= radius && !visit(item)) return false;
+        }
       }
       return true;
     }
@@ -58,9 +89,23 @@ class BoxTree {
     return descend(first, query, radius, left_out, visit) && descend(second, query, radius, left_out, visit);
   }
 
+  template <class Visit>
+  void descend_to_leaves(int index, const Box& query, Visit& visit) const {
+    const Node& node = nodes_[index];
+    if (!overlap(node.box, query)) return;
+    if (node.right == 0) {
+      for (int k = node.begin; k < node.end; ++k) {
+        if (overlap(sorted_[k].box, query)) visit(sorted_[k]);
+      }
+      return;
+    }
+    descend_to_leaves(index + 1, query, visit);
+    descend_to_leaves(node.right, query, visit);
+  }
+
   std::vector<Box> boxes_;
-  std::vector<int> labels_;
-  std::vector<int> order_;
+  std::vector<Leaf> leaves_;
+  std::vector<Leaf> sorted_;  ///< the same, in space
   std::vector<Node> nodes_;
 };
 

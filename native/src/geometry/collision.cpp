@@ -5,12 +5,12 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/plane.h"
+
 namespace atlas_refine {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Real roots of a t^2 + b t + c in ascending order; infinity for each that does not exist.
 std::pair<double, double> real_roots(double a, double b, double c) {

@@ -74,15 +74,6 @@ MeshTopology mesh_topology(int vertex_count, const std::vector<Triangle>& triang
   const BuiltMesh built = build_mesh(vertex_count, triangles);
   MeshTopology topology;
   topology.boundary_loops = boundary_loops(built);
-  topology.edges.reserve(built.mesh.n_edges());
-  for (int e = 0; e < static_cast<int>(built.mesh.n_edges()); ++e) {
-    const auto half_edge = built.mesh.halfedge_handle(OpenMesh::EdgeHandle(e), 0);
-    const int from = built.origins[built.mesh.from_vertex_handle(half_edge).idx()];
-    const int to = built.origins[built.mesh.to_vertex_handle(half_edge).idx()];
-    topology.edges.push_back({std::min(from, to), std::max(from, to)});
-  }
-  std::sort(topology.edges.begin(), topology.edges.end());
-  topology.edges.erase(std::unique(topology.edges.begin(), topology.edges.end()), topology.edges.end());
   int used = 0;
   for (int v = 0; v < static_cast<int>(built.mesh.n_vertices()); ++v) used += !built.mesh.is_isolated(OpenMesh::VertexHandle(v));
   topology.euler_characteristic = used - static_cast<int>(built.mesh.n_edges()) + static_cast<int>(built.mesh.n_faces());

@@ -1,7 +1,6 @@
 // Connectivity of a chart's triangles. OpenMesh lives behind this header and nowhere else.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "geometry/chart.h"
@@ -10,7 +9,6 @@ namespace atlas_refine {
 
 struct MeshTopology {
   std::vector<std::vector<int>> boundary_loops;  ///< vertex loops, the triangles on the left; ordered by their first half-edge
-  std::vector<std::array<int, 2>> edges;         ///< every pair of adjacent vertices once, smaller first, sorted
   int euler_characteristic = 0;                  ///< vertices in use - edges + triangles; 1 for a disk
 };
 

@@ -1,33 +1,13 @@
 // Input to charts (section 3, "Inputs"): UV connectivity, mirrored charts turned, flips refused or counted.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "geometry/chart.h"
+#include "input/face_defect.h"
+#include "input/triangulate_faces.h"
 
 namespace atlas_refine {
-
-/// Where a corner of the input went.
-struct CornerRef {
-  int chart;
-  int vertex;  ///< local index into Chart::uvs
-};
-
-/// A face that is not positive in the UV plane.
-struct FaceDefect {
-  enum class Kind {
-    Flipped,        ///< turned against the rest of its chart
-    ZeroArea,       ///< a point or a line in the UV plane
-    CrossesItself,  ///< a polygon of positive area whose outline is not simple; its triangles are a fan
-  };
-  int chart;
-  int face;
-  Kind kind;
-};
-
-/// "face 7 of chart 0 is flipped in the UV map"
-std::string describe(const FaceDefect& defect);
 
 /// The input atlas as charts. Chart UVs are the input's values, except that mirrored charts are turned over (u negated).
 struct ChartSet {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/boundary.h"
 #include "geometry/box_tree.h"
 #include "geometry/predicates.h"
 #include "measure/distortion.h"
@@ -40,8 +41,7 @@ Scene make_scene(const std::vector<Outline>& outlines, const std::vector<Placeme
       for (size_t k = 0; k < loop.size(); ++k) {
         const Vec2 a = placements[c].apply(loop[k]), b = placements[c].apply(loop[(k + 1) % loop.size()]);
         scene.edges.push_back({static_cast<int>(c), a, b});
-        box.min = box.min.cwiseMin(a);
-        box.max = box.max.cwiseMax(a);
+        box = united(box, {a, a});
       }
     }
     scene.boxes.push_back(box);
@@ -49,8 +49,7 @@ Scene make_scene(const std::vector<Outline>& outlines, const std::vector<Placeme
     double radius = 0;
     for (size_t k = first; k < scene.edges.size(); ++k) radius = std::max(radius, (scene.edges[k].a - scene.centres[c]).norm());
     scene.radii.push_back(std::max(radius, 1e-300));
-    scene.box.min = scene.box.min.cwiseMin(box.min);
-    scene.box.max = scene.box.max.cwiseMax(box.max);
+    scene.box = united(scene.box, box);
   }
   scene.first_edges.push_back(static_cast<int>(scene.edges.size()));
   return scene;
@@ -67,10 +66,7 @@ BoxTree edge_tree(const Scene& scene) {
 }
 
 Vec2 nearest_point(const Vec2& p, const Edge& edge) {
-  const Vec2 along = edge.b - edge.a;
-  const double square = along.squaredNorm();
-  const double t = square > 0 ? std::clamp((p - edge.a).dot(along) / square, 0.0, 1.0) : 0;
-  return edge.a + t * along;
+  return edge.a + closest_on_segment(p, edge.a, edge.b).along * (edge.b - edge.a);
 }
 
 /// The point lies inside the chart: its outline winds about it.
@@ -154,9 +150,8 @@ class Program {
   }
 
   void add_walls() {
-    size_ = scene_.box.size();
     const double aspect = options_.box_aspect;
-    if (aspect > 0) size_ = Vec2(std::max(size_.x(), aspect * size_.y()), std::max(size_.y(), size_.x() / aspect));
+    size_ = box_of_aspect(scene_.box, aspect).size();
     const Vec2 top = scene_.box.min + size_;
     for (const Edge& edge : scene_.edges) {
       for (int axis = 0; axis < 2; ++axis) {

@@ -129,8 +129,7 @@ class Search {
   }
 
   void offer(std::vector<Placement> placements) {
-    const Vec2 size = placed_box(outlines_, placements).size();
-    const double area = box_area(size.x(), size.y(), options_.box_aspect);
+    const double area = box_of_aspect(placed_box(outlines_, placements), options_.box_aspect).area();
     if (area >= least_area_) return;
     least_area_ = area;
     best_ = std::move(placements);

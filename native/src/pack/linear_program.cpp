@@ -98,6 +98,44 @@ double step_to_boundary(const VectorXd& x, const VectorXd& dx) {
   return step;
 }
 
+using Solver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+
+/// Values of the variables, the rows' slacks and their multipliers; or a step in them.
+struct Iterate {
+  VectorXd z, slack, dual;
+
+  /// Mean product of a slack and its multiplier: 0 at the optimum.
+  double gap() const { return slack.dot(dual) / static_cast<double>(slack.size()); }
+};
+
+/// What is missing from A z - s = b and A' l = c.
+struct Residuals {
+  VectorXd primal, dual;
+};
+
+/// Newton on A dz - ds = -rp, A' dl = -rd, S dl + L ds = complementarity. `solver` holds A' diag(weight) A.
+Iterate newton_step(const Rows& rows, const Solver& solver, const Iterate& at, const Residuals& residuals,
+                    const VectorXd& complementarity) {
+  const VectorXd weight = at.dual.cwiseQuotient(at.slack);
+  const VectorXd inner = complementarity.cwiseQuotient(at.slack) - weight.cwiseProduct(residuals.primal);
+  Iterate step;
+  step.z = solver.solve(rows.transposed_times(inner) - residuals.dual);
+  step.slack = rows.times(step.z) + residuals.primal;
+  step.dual = complementarity.cwiseQuotient(at.slack) - weight.cwiseProduct(step.slack);
+  return step;
+}
+
+/// A step straight at the optimum tells how much to centre the one that is taken, and its second-order error.
+Iterate predictor_corrector_step(const Rows& rows, const Solver& solver, const Iterate& at, const Residuals& residuals) {
+  const VectorXd product = at.slack.cwiseProduct(at.dual);
+  const Iterate affine = newton_step(rows, solver, at, residuals, -product);
+  const double primal = step_to_boundary(at.slack, affine.slack), dual = step_to_boundary(at.dual, affine.dual);
+  const Iterate reached{{}, at.slack + primal * affine.slack, at.dual + dual * affine.dual};
+  const double gap = at.gap(), centring = std::pow(reached.gap() / gap, 3);
+  return newton_step(rows, solver, at, residuals,
+                     VectorXd::Constant(product.size(), centring * gap) - product - affine.slack.cwiseProduct(affine.dual));
+}
+
 }  // namespace
 
 VectorXd solve_linear_program(const VectorXd& cost, const std::vector<LinearInequality>& inequalities, const VectorXd& reach,
@@ -106,42 +144,26 @@ VectorXd solve_linear_program(const VectorXd& cost, const std::vector<LinearIneq
   constexpr double kPrecision = 1e-9;
   Rows rows(inequalities, reach);
   const double scale = reach.maxCoeff(), price = std::max(cost.lpNorm<Eigen::Infinity>(), 1e-300);
-  VectorXd z = VectorXd::Zero(cost.size());
-  VectorXd slack = (-rows.bounds()).cwiseMax(0.1 * scale);
-  VectorXd dual = VectorXd::Constant(slack.size(), price);
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
+  Iterate at{VectorXd::Zero(cost.size()), (-rows.bounds()).cwiseMax(0.1 * scale), {}};
+  at.dual = VectorXd::Constant(at.slack.size(), price);
+  Solver solver;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     poll();
-    const VectorXd primal_residual = rows.times(z) - slack - rows.bounds();
-    const VectorXd dual_residual = cost - rows.transposed_times(dual);
-    const double gap = slack.dot(dual) / slack.size();
-    if (primal_residual.lpNorm<Eigen::Infinity>() < kPrecision * scale &&
-        dual_residual.lpNorm<Eigen::Infinity>() < 1e-7 * price && gap * slack.size() < 1e-4 * price * scale) {
-      return z;
+    const Residuals residuals{rows.times(at.z) - at.slack - rows.bounds(), cost - rows.transposed_times(at.dual)};
+    if (residuals.primal.lpNorm<Eigen::Infinity>() < kPrecision * scale &&
+        residuals.dual.lpNorm<Eigen::Infinity>() < 1e-7 * price && at.gap() * at.slack.size() < 1e-4 * price * scale) {
+      return at.z;
     }
-    const VectorXd weight = dual.cwiseQuotient(slack);
-    const auto& normal = rows.normal(weight);
+    const auto& normal = rows.normal(at.dual.cwiseQuotient(at.slack));
     if (iteration == 0) solver.analyzePattern(normal);
     solver.factorize(normal);
     if (solver.info() != Eigen::Success) return {};
-    // Newton on A dz - ds = -rp, A' dl = rd, S dl + L ds = target - S l.
-    VectorXd dz, ds, dl;
-    const auto solve = [&](const VectorXd& complementarity) {
-      const VectorXd inner = complementarity.cwiseQuotient(slack) - weight.cwiseProduct(primal_residual);
-      dz = solver.solve(rows.transposed_times(inner) - dual_residual);
-      ds = rows.times(dz) + primal_residual;
-      dl = complementarity.cwiseQuotient(slack) - weight.cwiseProduct(ds);
-    };
-    solve(-slack.cwiseProduct(dual));
-    const double affine_primal = step_to_boundary(slack, ds), affine_dual = step_to_boundary(dual, dl);
-    const double affine_gap = (slack + affine_primal * ds).dot(dual + affine_dual * dl) / slack.size();
-    const double centring = std::pow(affine_gap / gap, 3);
-    solve((VectorXd::Constant(slack.size(), centring * gap) - slack.cwiseProduct(dual) - ds.cwiseProduct(dl)).eval());
-    const double primal_step = std::min(1.0, 0.99 * step_to_boundary(slack, ds));
-    const double dual_step = std::min(1.0, 0.99 * step_to_boundary(dual, dl));
-    z += primal_step * dz;
-    slack += primal_step * ds;
-    dual += dual_step * dl;
+    const Iterate step = predictor_corrector_step(rows, solver, at, residuals);
+    const double primal = std::min(1.0, 0.99 * step_to_boundary(at.slack, step.slack));
+    const double dual = std::min(1.0, 0.99 * step_to_boundary(at.dual, step.dual));
+    at.z += primal * step.z;
+    at.slack += primal * step.slack;
+    at.dual += dual * step.dual;
   }
   return {};
 }

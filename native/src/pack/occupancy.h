@@ -16,7 +16,6 @@ class Occupancy {
  public:
   explicit Occupancy(int width);
 
-  int width() const { return width_; }
   int height() const { return height_; }  ///< rows up to the topmost taken cell
 
   /// Lowest, then leftmost place of the raster with y <= highest; false where

@@ -50,6 +50,37 @@ struct Interval {
   double low, high;
 };
 
+/// One row of cells: what the dilated edges cover of it, and where the outline crosses its middle.
+struct Row {
+  std::vector<Interval> covered;
+  std::vector<std::pair<double, int>> crossings;  ///< x, and +1 where the outline goes down
+};
+
+/// Adds the edge from a to b, in cells, to the rows that its capsule reaches.
+void add_edge(const Vec2& a, const Vec2& b, double radius, std::vector<Row>& rows) {
+  const Capsule capsule{a, b, radius}, mirrored{{-a.x(), a.y()}, {-b.x(), b.y()}, radius};
+  const double low = std::min(a.y(), b.y()), high = std::max(a.y(), b.y());
+  const int top = static_cast<int>(rows.size()) - 1;
+  const int first = std::clamp(static_cast<int>(std::floor(low - radius)), 0, top);
+  const int last = std::clamp(static_cast<int>(std::floor(high + radius)), 0, top);
+  for (int y = first; y <= last; ++y) {
+    rows[y].covered.push_back({-mirrored.right_in(y, y + 1), capsule.right_in(y, y + 1)});
+    const double middle = y + 0.5;
+    if ((a.y() > middle) == (b.y() > middle)) continue;
+    rows[y].crossings.emplace_back(a.x() + (middle - a.y()) / (b.y() - a.y()) * (b.x() - a.x()), a.y() > b.y() ? 1 : -1);
+  }
+}
+
+/// Adds what lies inside the outline along the middle of the row.
+void add_inside(Row& row) {
+  std::sort(row.crossings.begin(), row.crossings.end());
+  int winding = 0;
+  for (std::size_t k = 0; k + 1 < row.crossings.size(); ++k) {
+    winding += row.crossings[k].second;
+    if (winding != 0) row.covered.push_back({row.crossings[k].first, row.crossings[k + 1].first});
+  }
+}
+
 /// Merges the row's intervals into runs of cells and sets their bits.
 void add_row(Raster& raster, int y, std::vector<Interval>& intervals) {
   std::sort(intervals.begin(), intervals.end(), [](const Interval& p, const Interval& q) { return p.low < q.low; });
@@ -93,30 +124,15 @@ Raster rasterise(const Outline& outline, const Turn& turn, double radius, double
   raster.words = (raster.width + 63) / 64;
   raster.bits.assign(static_cast<size_t>(raster.stride()) * raster.height + 1, 0);
 
-  std::vector<std::vector<Interval>> rows(raster.height);
-  std::vector<std::vector<std::pair<double, int>>> crossings(raster.height);  // x, and +1 where the outline goes down
+  std::vector<Row> rows(raster.height);
   for (const auto& loop : loops) {
     for (size_t i = 0; i < loop.size(); ++i) {
-      const Vec2 a = (loop[i] - raster.origin) / cell, b = (loop[(i + 1) % loop.size()] - raster.origin) / cell;
-      const Capsule capsule{a, b, r}, mirrored{{-a.x(), a.y()}, {-b.x(), b.y()}, r};
-      const double low = std::min(a.y(), b.y()), high = std::max(a.y(), b.y());
-      const int first = std::clamp(static_cast<int>(std::floor(low - r)), 0, raster.height - 1);
-      const int last = std::clamp(static_cast<int>(std::floor(high + r)), 0, raster.height - 1);
-      for (int y = first; y <= last; ++y) {
-        rows[y].push_back({-mirrored.right_in(y, y + 1), capsule.right_in(y, y + 1)});
-        const double middle = y + 0.5;
-        if ((a.y() > middle) == (b.y() > middle)) continue;
-        crossings[y].emplace_back(a.x() + (middle - a.y()) / (b.y() - a.y()) * (b.x() - a.x()), a.y() > b.y() ? 1 : -1);
-      }
+      add_edge((loop[i] - raster.origin) / cell, (loop[(i + 1) % loop.size()] - raster.origin) / cell, r, rows);
     }
   }
   for (int y = 0; y < raster.height; ++y) {
-    std::sort(crossings[y].begin(), crossings[y].end());
-    for (size_t k = 0, winding = 0; k + 1 < crossings[y].size(); ++k) {
-      winding += crossings[y][k].second;
-      if (winding != 0) rows[y].push_back({crossings[y][k].first, crossings[y][k + 1].first});
-    }
-    add_row(raster, y, rows[y]);
+    add_inside(rows[y]);
+    add_row(raster, y, rows[y].covered);
   }
   return raster;
 }

@@ -237,8 +237,8 @@ void measure_box(const std::vector<GridChart>& charts, GridLayout& layout) {
 /// side.
 Cell smaller_box(const GridLayout& layout, double aspect, double shrink, Rng& rng) {
   if (aspect > 0) {
-    const double width = std::max<double>(layout.width, layout.height * aspect) * (1 - 0.5 * shrink);
-    return {static_cast<int>(std::ceil(width)) - 1, static_cast<int>(std::ceil(width / aspect)) - 1};
+    const Vec2 size = (1 - 0.5 * shrink) * box_of_aspect({Vec2::Zero(), Vec2(layout.width, layout.height)}, aspect).size();
+    return {static_cast<int>(std::ceil(size.x())) - 1, static_cast<int>(std::ceil(size.y())) - 1};
   }
   Cell box{layout.width, layout.height};
   int& side = rng.below(2) ? box.x : box.y;

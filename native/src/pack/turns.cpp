@@ -6,10 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/convex_hull.h"
+#include "measure/distortion.h"
+
 namespace atlas_refine {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 Turn turn_of(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
@@ -27,12 +28,6 @@ std::vector<double> caliper_angles(const std::vector<Vec2>& hull) {
   std::sort(angles.begin(), angles.end());
   angles.erase(std::unique(angles.begin(), angles.end(), [](double a, double b) { return b - a < 1e-12; }), angles.end());
   return angles;
-}
-
-/// Side of the smallest box of the aspect, measured along its width; for aspect
-/// 0 the box' area.
-double box_cost(const Vec2& size, double aspect) {
-  return aspect > 0 ? std::max(size.x(), aspect * size.y()) : size.x() * size.y();
 }
 
 /// The turn strictly between two caliper turns at which width = aspect *
@@ -59,20 +54,7 @@ double balanced_angle(const std::vector<Vec2>& hull, double from, double to, dou
 std::vector<Vec2> convex_hull(const Outline& outline) {
   std::vector<Vec2> points;
   for (const auto& loop : outline.loops) points.insert(points.end(), loop.begin(), loop.end());
-  const auto before = [](const Vec2& a, const Vec2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); };
-  std::sort(points.begin(), points.end(), before);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  std::vector<Vec2> hull;
-  const auto add = [&](const Vec2& p, size_t fixed) {
-    while (hull.size() >= fixed + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const Vec2& p : points) add(p, 0);
-  const size_t lower = hull.size() - 1;
-  for (auto p = points.rbegin() + 1; p != points.rend(); ++p) add(*p, lower);
-  hull.pop_back();
-  return hull;
+  return convex_hull(points);
 }
 
 Box turned_box(const std::vector<Vec2>& points, const Turn& turn) {
@@ -119,7 +101,7 @@ Turn best_turn(const std::vector<Vec2>& hull, double aspect) {
   double best_cost = INFINITY;
   for (double angle : angles) {
     const Turn turn = turn_of(angle);
-    const double cost = box_cost(turned_box(hull, turn).size(), aspect);
+    const double cost = box_of_aspect(turned_box(hull, turn), aspect).area();
     if (cost < best_cost) best_cost = cost, best = turn;
   }
   return best;

@@ -17,8 +17,7 @@ struct Turn {
   Turn quarter_turned() const { return {-sine, cosine}; }
 };
 
-/// Corners of the convex hull, counterclockwise, no three collinear (up to
-/// round-off).
+/// Corners of the outline's convex hull, counterclockwise, no three collinear.
 std::vector<Vec2> convex_hull(const Outline& outline);
 
 /// Bounding box of the points after the turn.

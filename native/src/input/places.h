@@ -1,0 +1,13 @@
+// Which vertices lie at one point in space.
+#pragma once
+
+#include <vector>
+
+#include "atlas_refine/atlas.h"
+
+namespace atlas_refine {
+
+/// For every vertex the smallest index of the vertices that lie exactly where it does.
+std::vector<int> places(const std::vector<Vec3>& positions);
+
+}  // namespace atlas_refine

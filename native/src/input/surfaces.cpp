@@ -1,0 +1,84 @@
+// Surfaces from space, and what stands for the triangles that have no shape there.
+#include "input/surfaces.h"
+
+#include <cmath>
+
+#include "geometry/plane.h"
+#include "geometry/rest_triangle.h"
+
+namespace atlas_refine {
+
+namespace {
+
+using Shapes = std::vector<RestTriangle>;  // of one chart
+
+/// Weight of a face without a shape in space, as a fraction of the mean triangle: it must not count, and must not be zero.
+constexpr double kSliverWeight = 1e-6;
+
+Shapes shapes_in_space(const Chart& chart, const std::vector<Vec3>& positions) {
+  Shapes shapes;
+  shapes.reserve(chart.triangles.size());
+  for (const Triangle& t : chart.triangles) {
+    shapes.push_back(rest_from_space(positions[t[0]], positions[t[1]], positions[t[2]]));
+  }
+  return shapes;
+}
+
+double mean_area(const std::vector<Shapes>& charts) {
+  double area = 0;
+  std::size_t count = 0;
+  for (const Shapes& shapes : charts) {
+    count += shapes.size();
+    for (const RestTriangle& rest : shapes) area += rest.area;
+  }
+  return area > 0 ? area / static_cast<double>(count) : 1;
+}
+
+/// Surface units for one UV unit, over the triangles that have a shape.
+double surface_scale(const Chart& chart, const Shapes& shapes) {
+  double surface = 0, plane = 0;
+  for (std::size_t t = 0; t < shapes.size(); ++t) {
+    const Triangle& v = chart.triangles[t];
+    if (shapes[t].area == 0) continue;
+    surface += shapes[t].area;
+    plane += 0.5 * std::abs(doubled_area(chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]]));
+  }
+  const double ratio = std::sqrt(surface / plane);
+  return ratio > 0 && std::isfinite(ratio) ? ratio : 1;
+}
+
+void give_slivers_a_shape(const Chart& chart, double mean, Shapes& shapes) {
+  const double scale = surface_scale(chart, shapes);
+  for (std::size_t t = 0; t < shapes.size(); ++t) {
+    const Triangle& v = chart.triangles[t];
+    RestTriangle& rest = shapes[t];
+    if (rest.area > 0) continue;
+    rest = rest_from_plane(chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]], scale);
+    if (rest.area == 0) rest = rest_equilateral(mean);
+    rest.area = kSliverWeight * mean;
+  }
+}
+
+}  // namespace
+
+void set_surfaces(std::vector<Chart>& charts, const std::vector<std::vector<Vec3>>& positions) {
+  std::vector<Shapes> shapes;
+  for (std::size_t k = 0; k < charts.size(); ++k) shapes.push_back(shapes_in_space(charts[k], positions[k]));
+  const double mean = mean_area(shapes);
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    give_slivers_a_shape(charts[k], mean, shapes[k]);
+    charts[k].surface = Surface(std::move(shapes[k]));
+  }
+}
+
+Surface turned_over(const Surface& surface) {
+  Shapes turned(surface.begin(), surface.end());
+  for (RestTriangle& rest : turned) {
+    // The edges change places and the flat triangle is turned over, to stay counterclockwise.
+    rest.inverse_edges.row(0).swap(rest.inverse_edges.row(1));
+    rest.inverse_edges.col(1) *= -1;
+  }
+  return Surface(std::move(turned));
+}
+
+}  // namespace atlas_refine
