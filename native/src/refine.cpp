@@ -89,7 +89,11 @@ CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
                                       "; they are squeezed");
     }
   }
-  return certified(run, refine_whole(run, range));
+  // Also where no cut was needed, that road goes on to the optimum under the bound.
+  RefineOptions options = run.options;
+  options.relax = options.relax || (options.seams == Seams::Rectangles && !options.rectangles.until_input);
+  const Refinement whole{run.input, options, run.monitor, run.journal, run.threads};
+  return certified(whole, refine_whole(whole, range));
 }
 
 /// Why the result is not what was asked for; empty where it is.

@@ -39,6 +39,7 @@ FaceCharts number_charts(const Atlas& atlas, const EdgeJoins& joins) {
 
 struct ChartSides {
   std::vector<bool> mirrored;      ///< one per chart
+  std::vector<bool> mixed;         ///< one per chart: its faces are wound both ways
   std::vector<bool> turned_faces;  ///< one per face: it runs backwards in its chart
 };
 
@@ -51,7 +52,10 @@ ChartSides orient_charts(const Atlas& atlas, const EdgeJoins& joins, const FaceC
     as_wound[charts.chart[f]] += area;
     as_joined[charts.chart[f]] += joins.turned_faces[f] ? -area : area;
   }
-  ChartSides sides{std::vector<bool>(charts.count), joins.turned_faces};
+  ChartSides sides{std::vector<bool>(charts.count), std::vector<bool>(charts.count), joins.turned_faces};
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    if (joins.turned_faces[f]) sides.mixed[charts.chart[f]] = true;  // against the chart's first face
+  }
   for (int k = 0; k < charts.count; ++k) sides.mirrored[k] = as_wound[k] < 0;
   for (int f = 0; f < atlas.face_count(); ++f) {
     const int k = charts.chart[f];
@@ -136,6 +140,7 @@ ChartSet split_charts(const Atlas& atlas) {
   set.seam_edges = joins.seam_edges;
   set.seam_length = joins.seam_length;
   set.mirrored = sides.mirrored;
+  set.mixed_winding = sides.mixed;
   set.corners = number_vertices(atlas, joins, face_charts);
   set.charts = charts_with_uvs(atlas, set.corners, set.mirrored);
   set.defects = triangulate_faces(atlas, set.corners, sides.turned_faces, set.charts);

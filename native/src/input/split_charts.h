@@ -14,6 +14,7 @@ struct ChartSet {
   std::vector<Chart> charts;        ///< ordered by their smallest input face
   std::vector<CornerRef> corners;   ///< one per input corner
   std::vector<bool> mirrored;       ///< one per chart
+  std::vector<bool> mixed_winding;  ///< one per chart: neighbouring faces run along their edge in the same sense
   std::vector<FaceDefect> defects;  ///< faces whose triangles are not all positive; empty for a usable atlas
   int seam_edges = 0;               ///< edges in space between two faces or more that are not joined in the UV map
   double seam_length = 0;           ///< their length in space, each once, without natural boundary

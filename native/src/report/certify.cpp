@@ -62,7 +62,14 @@ class Refusal {
 
 void require_valid(const InputAtlas& input, const Atlas& output, const ChartSet& set, std::size_t pieces, bool cut) {
   const Refusal refuse(output);
-  const Validity validity = validate_split(set);
+  // Where faces of one chart are wound both ways, a part of it may be wound against the rest: it is not mirrored for that.
+  const auto& mixed = input.set.mixed_winding;
+  ChartSet oriented = set;
+  if (cut && std::find(mixed.begin(), mixed.end(), true) != mixed.end()) {
+    oriented.charts = charts_as_placed(set);
+    oriented.mirrored.assign(set.mirrored.size(), false);
+  }
+  const Validity validity = validate_split(oriented);
   if (!validity.valid()) refuse(validity.problem, validity.chart, validity.face);
   const bool seams_kept = cut || set.seam_edges == input.set.seam_edges;
   if (!seams_kept || set.charts.size() != pieces) refuse("its seams are not those that were meant");
