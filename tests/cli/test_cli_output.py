@@ -205,14 +205,18 @@ def test_measure_json(program, tmp_path):
     assert told["validity"]["valid"] is True
 
 
-def test_measure_says_what_is_not_valid(program, tmp_path):
+def test_measure_says_what_is_not_valid_and_exits_with_1(program, tmp_path):
     path = tmp_path / "in.obj"
     path.write_text(grid(2).replace("vt 0.5 0.5\n", "vt 5.5 0.5\n"))
     run = program("measure", path, "--json")
-    assert run.returncode == 0
+    assert (run.returncode, run.stderr) == (1, b"")
     told = json.loads(run.stdout)["validity"]
     assert told["valid"] is False
     assert told["problem"]
+    run = program("measure", path)
+    assert (run.returncode, run.stderr) == (1, b"")
+    assert b"packing efficiency" in run.stdout
+    assert told["problem"].encode() in run.stdout
 
 
 def test_pictures_are_drawn(program, tmp_path):
