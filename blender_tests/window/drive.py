@@ -21,7 +21,7 @@ from support import MODULE, add_mesh, enable_addon, get_uvs, packing_efficiency
 
 RESULT = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
 STEP_SECONDS = 0.05
-WAIT_LIMIT_SECONDS = 40
+WAIT_LIMIT_SECONDS = 240  # only what hangs takes as long
 #: Where things are in the sidebar of Blender 3.4.1's UV editor, in pixels from its right and top edge.
 TAB = (10, 130)
 SEAMS = (84, 70)
@@ -141,12 +141,13 @@ def test_the_window_lives_while_it_runs_and_esc_stops_it():
         yield STEP_SECONDS
     assert fractions == sorted(fractions)
     picture("running")
-    began = time.monotonic()
     yield from key("ESC")
-    yield lambda: not running()
-    seconds = time.monotonic() - began
-    print(f"Esc to the end of the run: {seconds:.2f} s", flush=True)
-    assert seconds < 1.0, "0.5 s is promised, on a machine that has nothing else to do"
+    steps = 0
+    while running():  # counted in the window's own timer, which a loaded machine slows as it does the engine
+        assert steps * STEP_SECONDS < 1.0, "0.5 s is promised, on a machine that has nothing else to do"
+        yield STEP_SECONDS
+        steps += 1
+    print(f"Esc to the end of the run: {steps} steps of {STEP_SECONDS} s", flush=True)
     yield 0.3
     assert uvs(bpy.data.objects["Slow"]).tobytes() == before.tobytes()
 
