@@ -4,6 +4,7 @@ The tools that it calls are scripts that write down how they were called, but fo
 """
 
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -12,7 +13,7 @@ from pathlib import Path
 import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-RUFF = "ruff==0.8.6"
+RUFF = re.search(r"^RUFF=(.+)$", (REPOSITORY / "dev").read_text(), re.MULTILINE).group(1)
 NOBODY = 65534
 
 TOOLS = {
