@@ -225,7 +225,7 @@ std::string measures_table(const Measures& m, const Validity& validity) {
   std::string text;
   const auto row = [&](const char* name, const std::string& value) { text += print("%-34s ", name) + value + "\n"; };
   row("packing efficiency (PE)", print("%.4f", m.pe));
-  if (m.pe_fixed_aspect != m.pe) row("PE in the box of the asked aspect", print("%.4f", m.pe_fixed_aspect));
+  if (m.pe_fixed_aspect != m.pe) row("PE in a texture of the asked aspect", print("%.4f", m.pe_fixed_aspect));
   row("box", print("%.6g x %.6g", m.box_width, m.box_height));
   row("share of the unit square", print("%.1f %%", 100 * m.unit_square_share));
   row("charts (CN)", std::to_string(m.chart_count));

@@ -1,6 +1,7 @@
 """start(): the same call in the background."""
 
 import os
+import pathlib
 import subprocess
 import sys
 import time
@@ -49,7 +50,7 @@ def test_a_job_that_nobody_waits_for_stops_with_its_object_and_with_the_process(
     assert time.process_time() - began < 1.0
 
     code = "import conftest, atlas_refine, shapes, time; job = atlas_refine.start(*shapes.slow(), pe_bound=0.95); time.sleep(0.1)"
-    with subprocess.Popen([sys.executable, "-c", code], cwd=sys.path[0]) as process:
+    with subprocess.Popen([sys.executable, "-c", code], cwd=pathlib.Path(__file__).parent) as process:
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
     assert process.returncode == 0

@@ -38,7 +38,9 @@ class Measures:
     @property
     def pe(self) -> float: ...  # sum of UV triangle areas / area of the UV bounding box
     @property
-    def pe_fixed_aspect(self) -> float: ...  # the same against the smallest box of the asked aspect
+    def pe_fixed_aspect(
+        self,
+    ) -> float: ...  # the same against the smallest box of the texture's shape; pe where the aspect is free
     @property
     def box_width(self) -> float: ...  # UV units
     @property
