@@ -51,6 +51,7 @@ class Module:
         folder = pathlib.Path(cache) / f"bpy-{self.version}"
         python, done = folder / "bin" / "python", folder / "complete"
         if not done.exists():
+            print(f"installing {self.name} from PyPI, some 350 MB", flush=True)
             shutil.rmtree(folder, ignore_errors=True)
             subprocess.run([self.base_python, "-m", "venv", folder], check=True)
             subprocess.run([python, "-m", "pip", "install", "-q", f"bpy=={self.version}"], check=True)

@@ -14,6 +14,7 @@ import traceback
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE.parent.parent / "tests" / "python")]
 
+import bmesh
 import bpy
 import numpy as np
 import shapes
@@ -21,7 +22,7 @@ from support import MODULE, add_mesh, enable_addon, get_uvs, packing_efficiency
 
 RESULT = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
 STEP_SECONDS = 0.05
-WAIT_LIMIT_SECONDS = 40
+WAIT_LIMIT_SECONDS = 240  # only what hangs takes as long
 #: Where things are in the sidebar of Blender 3.4.1's UV editor, in pixels from its right and top edge.
 TAB = (10, 130)
 SEAMS = (84, 70)
@@ -76,6 +77,23 @@ def uvs(obj):
     return get_uvs(obj.data.uv_layers.active)
 
 
+def mesh_size(name):
+    mesh = bpy.data.objects[name].data
+    return len(mesh.polygons), len(mesh.vertices)
+
+
+def faces_in_edit_mode(name):
+    return len(bmesh.from_edit_mesh(bpy.data.objects[name].data).faces)
+
+
+def until(condition, otherwise):
+    """Waits for what an event brings about."""
+    began = time.monotonic()
+    while not condition():
+        assert time.monotonic() - began < WAIT_LIMIT_SECONDS, otherwise
+        yield STEP_SECONDS
+
+
 def running():
     return tasks().running is not None
 
@@ -105,10 +123,9 @@ def test_the_tab_shows_the_panel():
     original = panel.draw
     panel.draw = lambda self, context: drawn.append(True) or original(self, context)
     uv_editor().tag_redraw()
-    yield 0.5
+    yield from until(lambda: drawn, "the panel is not drawn")
     panel.draw = original
     picture("panel")
-    assert drawn, "the panel is not drawn"
 
 
 def test_the_button_refines_and_one_undo_takes_it_back():
@@ -122,11 +139,9 @@ def test_the_button_refines_and_one_undo_takes_it_back():
     obj = bpy.data.objects["Loose"]
     assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
     yield from key("Z", ctrl=True)
-    yield 0.5
-    assert uvs(bpy.data.objects["Loose"]).tobytes() == before.tobytes(), "one undo does not take it back"
+    yield from until(lambda: uvs(bpy.data.objects["Loose"]).tobytes() == before.tobytes(), "one undo does not take it back")
     yield from key("Z", ctrl=True, shift=True)
-    yield 0.5
-    assert uvs(bpy.data.objects["Loose"]).tobytes() != before.tobytes(), "redo does nothing"
+    yield from until(lambda: uvs(bpy.data.objects["Loose"]).tobytes() != before.tobytes(), "redo does nothing")
 
 
 def test_the_window_lives_while_it_runs_and_esc_stops_it():
@@ -141,12 +156,13 @@ def test_the_window_lives_while_it_runs_and_esc_stops_it():
         yield STEP_SECONDS
     assert fractions == sorted(fractions)
     picture("running")
-    began = time.monotonic()
     yield from key("ESC")
-    yield lambda: not running()
-    seconds = time.monotonic() - began
-    print(f"Esc to the end of the run: {seconds:.2f} s", flush=True)
-    assert seconds < 1.0, "0.5 s is promised, on a machine that has nothing else to do"
+    steps = 0
+    while running():  # counted in the window's own timer, which a loaded machine slows as it does the engine
+        assert steps * STEP_SECONDS < 1.0, "0.5 s is promised, on a machine that has nothing else to do"
+        yield STEP_SECONDS
+        steps += 1
+    print(f"Esc to the end of the run: {steps} steps of {STEP_SECONDS} s", flush=True)
     yield 0.3
     assert uvs(bpy.data.objects["Slow"]).tobytes() == before.tobytes()
 
@@ -180,15 +196,15 @@ def test_rectangles_by_clicks():
     obj = add_mesh(name="Cut")
     bpy.context.view_layer.objects.active = obj
     bpy.context.scene.atlas_refine.pe_bound = 0.8
-    faces, positions = len(obj.data.polygons), len(obj.data.vertices)
+    faces, size = len(obj.data.polygons), mesh_size("Cut")
     bpy.ops.ed.undo_push(message="Made a mesh")
     yield from click(SEAMS)
     yield 0.5
     picture("seams")
     yield from click((SEAMS[0], SEAMS[1] + 2 * ROW))  # the menu opens below: None, Rectangles
+    yield from until(lambda: bpy.context.scene.atlas_refine.seams == "RECTANGLES", "the menu does not set the road")
     yield 0.5
     picture("rectangles")
-    assert bpy.context.scene.atlas_refine.seams == "RECTANGLES"
     tasks().last = None
     yield from click((BUTTON[0], BUTTON[1] + ROW))  # sigma is shown above it now
     yield lambda: tasks().last is not None and not running()
@@ -200,9 +216,7 @@ def test_rectangles_by_clicks():
     assert len(obj.data.polygons) == len(result.cut.face_sources) > faces
     assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
     yield from key("Z", ctrl=True)
-    yield 0.5
-    mesh = bpy.data.objects["Cut"].data
-    assert (len(mesh.polygons), len(mesh.vertices)) == (faces, positions), "one undo does not take it back"
+    yield from until(lambda: mesh_size("Cut") == size, "one undo does not take it back")
     bpy.context.scene.atlas_refine.seams = "NONE"
 
 
@@ -229,11 +243,8 @@ def test_rectangles_in_edit_mode_with_custom_normals_and_one_undo():
     assert all(abs(loop.normal.x - 0.6) < 1e-3 for loop in obj.data.loops)
     bpy.ops.object.mode_set(mode="EDIT")
     yield from key("Z", ctrl=True)
-    yield 0.5
-    obj = bpy.data.objects["Normals"]
-    assert obj.mode == "EDIT"
+    yield from until(lambda: faces_in_edit_mode("Normals") == faces, "one undo does not take it back")
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert len(obj.data.polygons) == faces, "one undo does not take it back"
     bpy.context.scene.atlas_refine.seams = "NONE"
 
 
@@ -241,8 +252,7 @@ def test_another_file_ends_a_run():
     yield from start(slow_mesh(), pe_bound=0.95)
     yield lambda: running()
     bpy.ops.wm.read_homefile(use_factory_startup=True)
-    yield 0.5
-    assert not running()
+    yield from until(lambda: not running(), "it goes on in another file")
     enable_addon()
     yield 0.5
     yield from prepare()

@@ -34,7 +34,8 @@ constexpr const char* kRefineOptionsDoc = R"(
 pe_bound         packing efficiency to reach, in (0, 1); default 0.8
 seams            "none" (default): charts bend, no seam is added; "rectangles": charts become axis-aligned and are cut into
                  rectangles (Liu et al. 2019), result.cut is the mesh that corner_uvs belong to
-box_aspect       width / height of the box; 0 (default) = free, 1 = square
+box_aspect       width / height of the texture that [0, 1]^2 stands for; 0 (default) = a free box, 1 = square. All lengths are taken
+                 with u stretched by it
 gap              smallest distance between charts as a fraction of gap_unit, hard; None (default) = automatic: 0.0025 of the
                  diagonal, reduced only as far as the bound needs
 gap_unit         "diagonal" of the box (default) or its "long_side" (N texels of a texture of S: N / S)
@@ -147,8 +148,9 @@ PYBIND11_MODULE(_atlas_refine, module) {
           raises);
   define(module, "start", &start, "refine() in the background: returns a Job at once." + arrays + kRefineOptionsDoc + raises);
   define(module, "measure", &call_measure,
-         "Measures an atlas as it is.\n\nKeywords box_aspect (width / height for pe_fixed_aspect, 0 = free) and name." + arrays +
-             raises);
+         "Measures an atlas as it is.\n\nKeywords box_aspect (width / height of the texture that [0, 1]^2 stands for, 0 = free) "
+         "and name." +
+             arrays + raises);
   define(module, "validate", &call_validate,
          "Exact test on the values as given: every UV triangle positive, no boundaries crossing or touching.\n\nKeyword name." +
              arrays + raises);

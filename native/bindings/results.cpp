@@ -3,6 +3,7 @@
 
 #include <pybind11/stl.h>
 
+#include <cmath>
 #include <exception>
 #include <sstream>
 #include <utility>
@@ -48,9 +49,20 @@ py::str describe(const py::object& self) {
   return py::str(text.str());
 }
 
+/// A property's value as json.dumps() takes it.
+py::object plain(const py::handle& value) {
+  if (py::hasattr(value, "as_dict")) return value.attr("as_dict")();
+  if (py::isinstance<py::array>(value)) return value.attr("tolist")();
+  if (py::isinstance<py::float_>(value) && !std::isfinite(value.cast<double>())) return py::none();
+  if (!py::isinstance<py::list>(value)) return py::reinterpret_borrow<py::object>(value);
+  py::list entries;
+  for (const auto& entry : value) entries.append(plain(entry));
+  return std::move(entries);
+}
+
 py::dict as_dict(const py::object& self) {
   py::dict fields;
-  for (const auto& field : py::type::of(self).attr("_fields")) fields[field] = self.attr(field);
+  for (const auto& field : py::type::of(self).attr("_fields")) fields[field] = plain(self.attr(field));
   return fields;
 }
 
@@ -59,7 +71,8 @@ template <typename Value>
 class ValueClass {
  public:
   ValueClass(py::module_& module, const char* name, const char* doc) : class_(module, name, py::module_local(), doc) {
-    class_.def("__repr__", &describe).def("as_dict", &as_dict, "All fields in a new dict.");
+    class_.def("__repr__", &describe)
+        .def("as_dict", &as_dict, "All fields in a new dict as json.dumps() takes them: arrays as lists, infinity as None.");
   }
   ~ValueClass() { class_.attr("_fields") = py::tuple(fields_); }
 
@@ -88,6 +101,7 @@ void bind_measures(py::module_& module) {
       .field("pe_fixed_aspect", &Measures::pe_fixed_aspect)
       .field("box_width", &Measures::box_width)
       .field("box_height", &Measures::box_height)
+      .field("unit_square_share", &Measures::unit_square_share)
       .field("boundary_length", &Measures::boundary_length)
       .field("seam_edges", &Measures::seam_edges)
       .field("chart_count", &Measures::chart_count)
@@ -149,6 +163,25 @@ void bind_rectangle_report(py::module_& module) {
       .field("packed_pe", &RectangleReport::packed_pe);
 }
 
+void bind_chart_reports(py::module_& module) {
+  ValueClass<ChartReport>(module, "ChartReport", "One chart of the input, and what it went through.")
+      .field("faces", &ChartReport::faces)
+      .field("area", &ChartReport::area)
+      .field("mirrored", &ChartReport::mirrored)
+      .field("re_embedded", &ChartReport::re_embedded)
+      .field("distortion_before", &ChartReport::distortion_before)
+      .field("distortion_after", &ChartReport::distortion_after)
+      .field("stretch_max", &ChartReport::stretch_max)
+      .field("density_before", &ChartReport::density_before)
+      .field("density_after", &ChartReport::density_after);
+  ValueClass<PieceReport>(module, "PieceReport", "One chart of the output, where charts were cut.")
+      .field("chart", &PieceReport::chart)
+      .field("faces", &PieceReport::faces)
+      .field("area", &PieceReport::area)
+      .field("distortion", &PieceReport::distortion)
+      .field("stretch_max", &PieceReport::stretch_max);
+}
+
 void bind_refine_result(py::module_& module) {
   ValueClass<RefineResult>(module, "RefineResult", "A refined atlas with its certificate's figures.")
       .property("corner_uvs", [](const RefineResult& r) { return to_array(r.corner_uvs); })
@@ -160,9 +193,12 @@ void bind_refine_result(py::module_& module) {
       .field("gap", &RefineResult::gap)
       .field("price", &RefineResult::price)
       .field("iterations", &RefineResult::iterations)
+      .property("ended", [](const RefineResult& r) { return to_string(r.ended); })
       .field("charts", &RefineResult::charts)
+      .field("pieces", &RefineResult::pieces)
       .field("rectangles", &RefineResult::rectangles)
       .field("repairs", &RefineResult::repairs)
+      .field("fallbacks", &RefineResult::fallbacks)
       .field("warnings", &RefineResult::warnings)
       .property("timings", [](const RefineResult& r) {
         py::dict seconds;
@@ -195,13 +231,7 @@ void bind_results(py::module_& module) {
   ValueClass<Gap>(module, "Gap", "The smallest distance between two charts that is guaranteed.")
       .field("value", &Gap::value)
       .property("unit", [](const Gap& gap) { return gap.unit == Gap::Unit::LongSide ? "long_side" : "diagonal"; });
-  ValueClass<ChartReport>(module, "ChartReport", "What one chart went through.")
-      .field("faces", &ChartReport::faces)
-      .field("mirrored", &ChartReport::mirrored)
-      .field("re_embedded", &ChartReport::re_embedded)
-      .field("distortion_before", &ChartReport::distortion_before)
-      .field("distortion_after", &ChartReport::distortion_after)
-      .field("stretch_max", &ChartReport::stretch_max);
+  bind_chart_reports(module);
   bind_measures(module);
   bind_cut_mesh(module);
   bind_rectangle_report(module);

@@ -22,7 +22,14 @@ namespace atlas_refine::cli {
 
 namespace {
 
-enum Exit { exit_done = 0, exit_internal_error = 1, exit_usage = 2, exit_bad_input = 3, exit_bound_not_reached = 4 };
+enum Exit {
+  exit_done = 0,
+  exit_internal_error = 1,
+  exit_not_valid = 1,  // measure: the atlas it has printed the figures of
+  exit_usage = 2,
+  exit_bad_input = 3,
+  exit_bound_not_reached = 4
+};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -143,7 +150,7 @@ int run_measure(const CommandLine& line) {
     const std::string text =
         line.json ? measures_json(line.inputs.front().string(), measures, validity) : measures_table(measures, validity);
     std::fputs(text.c_str(), stdout);
-    return exit_done;
+    return validity.valid() ? exit_done : exit_not_valid;
   } catch (const RefineError& error) {
     return complain(error, files);
   }

@@ -23,6 +23,7 @@ Json to_json(const Measures& m) {
           {"pe_fixed_aspect", number(m.pe_fixed_aspect)},
           {"box_width", number(m.box_width)},
           {"box_height", number(m.box_height)},
+          {"unit_square_share", number(m.unit_square_share)},
           {"boundary_length", number(m.boundary_length)},
           {"seam_edges", m.seam_edges},
           {"chart_count", m.chart_count},
@@ -76,13 +77,33 @@ Json to_json(const CommandLine& line) {
           {"svg", line.svg_folder ? Json(line.svg_folder->string()) : Json(nullptr)}};
 }
 
-Json to_json(const ChartReport& chart) {
-  return {{"faces", chart.faces},
+Json to_json(const ChartReport& chart, std::size_t index) {
+  return {{"index", index},
+          {"faces", chart.faces},
+          {"area", number(chart.area)},
           {"mirrored", chart.mirrored},
           {"re_embedded", chart.re_embedded},
           {"distortion_before", number(chart.distortion_before)},
           {"distortion_after", number(chart.distortion_after)},
-          {"stretch_max", number(chart.stretch_max)}};
+          {"stretch_max", number(chart.stretch_max)},
+          {"density_before", number(chart.density_before)},
+          {"density_after", number(chart.density_after)}};
+}
+
+Json to_json(const PieceReport& piece, std::size_t index) {
+  return {{"index", index},
+          {"chart", piece.chart},
+          {"faces", piece.faces},
+          {"area", number(piece.area)},
+          {"distortion", number(piece.distortion)},
+          {"stretch_max", number(piece.stretch_max)}};
+}
+
+template <class Entry>
+Json numbered(const std::vector<Entry>& entries) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < entries.size(); ++k) list.push_back(to_json(entries[k], k));
+  return list;
 }
 
 Json to_json(const Validity& validity) {
@@ -145,8 +166,6 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
                         const Times& times) {
   Json file_list = Json::array();
   for (const FileReport& file : files) file_list.push_back(to_json(file));
-  Json charts = Json::array();
-  for (const ChartReport& chart : result.charts) charts.push_back(to_json(chart));
   Json stages = Json::array();
   for (const StageTime& stage : result.timings) stages.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
   return dump({{"program", "atlas-refine"},
@@ -162,9 +181,12 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
                {"gap", to_json(result.gap)},
                {"price", number(result.price)},
                {"iterations", result.iterations},
-               {"charts", charts},
+               {"ended", to_string(result.ended)},
+               {"charts", numbered(result.charts)},
+               {"pieces", numbered(result.pieces)},
                {"rectangles", result.rectangles ? to_json(*result.rectangles) : Json(nullptr)},
                {"repairs", result.repairs},
+               {"fallbacks", result.fallbacks},
                {"warnings", result.warnings},
                {"timings", stages},
                {"seconds", {{"read", times.read}, {"refine", times.refine}, {"write", times.write}}}});
@@ -177,6 +199,8 @@ std::string summary(const std::vector<FileReport>& files, const RefineResult& re
                      std::to_string(after.chart_count) + (after.chart_count == 1 ? " chart" : " charts") +
                      print(" in %.2f s, %d iterations\n", times.refine, result.iterations);
   text += print("  PE           %.4f -> %.4f\n", before.pe_fixed_aspect, after.pe_fixed_aspect);
+  text += print("  box          %.3f x %.3f, %.1f %% of the unit square\n", after.box_width, after.box_height,
+                100 * after.unit_square_share);
   text += print("  E_d          %.4f -> %.4f\n", before.distortion, after.distortion);
   text += print("  stretch 99%%  %.3f -> %.3f, largest %.3f -> %.3f\n", before.stretch_99, after.stretch_99, before.stretch_max,
                 after.stretch_max);
@@ -184,6 +208,7 @@ std::string summary(const std::vector<FileReport>& files, const RefineResult& re
   text += cut_lines(files, result);
   text += "  gap          " + gap_text(after.gap_between) + "\n";
   for (const std::string& repair : result.repairs) text += "  repair: " + repair + "\n";
+  for (const std::string& fallback : result.fallbacks) text += "  fallback: " + fallback + "\n";
   for (const std::string& warning : result.warnings) text += "  warning: " + warning + "\n";
   return text;
 }
@@ -200,8 +225,9 @@ std::string measures_table(const Measures& m, const Validity& validity) {
   std::string text;
   const auto row = [&](const char* name, const std::string& value) { text += print("%-34s ", name) + value + "\n"; };
   row("packing efficiency (PE)", print("%.4f", m.pe));
-  if (m.pe_fixed_aspect != m.pe) row("PE in the box of the asked aspect", print("%.4f", m.pe_fixed_aspect));
+  if (m.pe_fixed_aspect != m.pe) row("PE in a texture of the asked aspect", print("%.4f", m.pe_fixed_aspect));
   row("box", print("%.6g x %.6g", m.box_width, m.box_height));
+  row("share of the unit square", print("%.1f %%", 100 * m.unit_square_share));
   row("charts (CN)", std::to_string(m.chart_count));
   row("smallest chart (SA)", print("%.4g of the surface", m.smallest_chart));
   row("charts under 3 % (N3)", std::to_string(m.small_charts));

@@ -14,7 +14,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 class Program:
     path: Path
 
-    def __call__(self, *arguments, timeout=120):
+    def __call__(self, *arguments, timeout=900):
         command = [self.path, *arguments]
         return subprocess.run(command, capture_output=True, timeout=timeout, check=False)
 

@@ -199,20 +199,37 @@ def test_measure_json(program, tmp_path):
     path.write_text(grid(4, 30))
     told = json.loads(program("measure", path, "--json", "--aspect", "1:2").stdout)
     assert told["measures"]["pe"] == pytest.approx(box_efficiency(grid(4, 30)))
-    assert told["measures"]["pe_fixed_aspect"] == pytest.approx(told["measures"]["pe"] / 2)
+    # The square box is all of a texture of 1:2, in whose texels the sheet is twice as high as wide.
+    assert told["measures"]["pe_fixed_aspect"] == pytest.approx(told["measures"]["pe"])
+    assert told["measures"]["distortion"] > 1.2
     assert told["measures"]["chart_count"] == 1
     assert told["measures"]["gap_between"] is None
     assert told["validity"]["valid"] is True
 
 
-def test_measure_says_what_is_not_valid(program, tmp_path):
+@pytest.mark.parametrize("aspect", ["1:2", "square", "3:1"])
+def test_measure_of_a_box_that_leaves_some_of_the_texture(program, tmp_path, aspect):
+    """Whatever its shape, the texture is [0, 1]^2 times the longer side of the box."""
+    path = tmp_path / "in.obj"
+    corners = ("0 0", "2 0", "2 1", "0 1")
+    path.write_text("".join(f"v {corner} 0\nvt {corner}\n" for corner in corners) + "f 1/1 2/2 3/3 4/4\n")
+    told = json.loads(program("measure", path, "--json", "--aspect", aspect).stdout)["measures"]
+    assert (told["box_width"], told["box_height"], told["pe"]) == pytest.approx((2, 1, 1))
+    assert told["pe_fixed_aspect"] == pytest.approx(0.5)
+
+
+def test_measure_says_what_is_not_valid_and_exits_with_1(program, tmp_path):
     path = tmp_path / "in.obj"
     path.write_text(grid(2).replace("vt 0.5 0.5\n", "vt 5.5 0.5\n"))
     run = program("measure", path, "--json")
-    assert run.returncode == 0
+    assert (run.returncode, run.stderr) == (1, b"")
     told = json.loads(run.stdout)["validity"]
     assert told["valid"] is False
     assert told["problem"]
+    run = program("measure", path)
+    assert (run.returncode, run.stderr) == (1, b"")
+    assert b"packing efficiency" in run.stdout
+    assert told["problem"].encode() in run.stdout
 
 
 def test_pictures_are_drawn(program, tmp_path):

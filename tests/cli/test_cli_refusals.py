@@ -1,8 +1,10 @@
 """Bad input and bad usage: one clear line, the right exit code, nothing written, an old output left as it was."""
 
 import os
+import re
 
 import pytest
+from conftest import REPOSITORY
 from obj_shapes import grid
 
 QUAD = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
@@ -234,3 +236,14 @@ def test_help_and_version(program):
         *CUT_OPTIONS,
     ):
         assert option.encode() in program("--help").stdout
+
+
+def test_every_exit_code_is_in_the_documents():
+    code = re.compile(r"\bexit_\w+ = (\d+)")
+    cli = REPOSITORY / "native" / "cli"
+    codes = {int(number) for name in ("main.cpp", "interrupt.h") for number in code.findall((cli / name).read_text())}
+    assert codes == {0, 1, 2, 3, 4, 130}
+    table = (REPOSITORY / "docs" / "command_line.md").read_text()
+    assert {int(number) for number in re.findall(r"^\| (\d+) \|", table, re.MULTILINE)} == codes
+    paragraph = re.search(r"^Exit codes: (.*?)\n\n", (REPOSITORY / "README.md").read_text(), re.MULTILINE | re.DOTALL).group(1)
+    assert {int(number) for number in re.findall(r"(?:^|;\s)(\d+) ", paragraph)} == codes

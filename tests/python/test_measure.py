@@ -8,6 +8,7 @@ import shapes
 
 def test_a_square_that_fills_its_box():
     measures = atlas_refine.measure(*shapes.tight())
+    assert measures.unit_square_share == pytest.approx(64.0)
     assert measures.pe == pytest.approx(1.0)
     assert measures.distortion == pytest.approx(1.0)
     assert measures.distortion_to_input == pytest.approx(1.0)

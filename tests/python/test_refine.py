@@ -1,6 +1,7 @@
 """refine(): arrays in, a valid atlas at the bound out, or one error."""
 
 import itertools
+import json
 import threading
 import time
 
@@ -157,7 +158,31 @@ def test_a_result_shows_all_its_figures():
     result = atlas_refine.refine(*shapes.tight())
     fields = result.as_dict()
     assert {"corner_uvs", "cut", "intervention", "bound_met", "before", "after", "gap", "price", "iterations"} < set(fields)
-    assert {"charts", "repairs", "warnings", "timings"} < set(fields)
+    assert {"ended", "charts", "pieces", "repairs", "fallbacks", "warnings", "timings"} < set(fields)
     assert repr(result.after).startswith("Measures(pe=")
     with pytest.raises(AttributeError):
         result.after.pe = 1.0
+
+
+@pytest.mark.parametrize("seams", ["none", "rectangles"])
+def test_a_result_goes_through_json(seams):
+    result = atlas_refine.refine(*shapes.loose(), seams=seams, candidates=40)
+    fields = json.loads(json.dumps(result.as_dict(), allow_nan=False))
+    assert fields == result.as_dict()
+    assert np.array(fields["corner_uvs"]).tobytes() == result.corner_uvs.tobytes()
+    assert fields["after"] == result.after.as_dict()
+    assert fields["gap"] == {"value": result.gap.value, "unit": "diagonal"}
+    assert [chart["faces"] for chart in fields["charts"]] == [chart.faces for chart in result.charts]
+    assert (fields["cut"] is None) == (result.cut is None) == (seams == "none")
+    if result.cut is not None:
+        assert fields["rectangles"]["trails"] == result.rectangles.trails
+        assert fields["cut"]["new_seams"] == result.cut.new_seams.tolist()
+        assert len(fields["pieces"]) == len(result.pieces) == result.after.chart_count
+        assert {piece.chart for piece in result.pieces} == {0, 1, 2}
+
+
+def test_what_is_infinite_is_none_in_a_dict():
+    measures = atlas_refine.measure(*shapes.tight())
+    assert measures.gap_between == np.inf
+    assert measures.as_dict()["gap_between"] is None
+    assert measures.as_dict()["pe"] == measures.pe

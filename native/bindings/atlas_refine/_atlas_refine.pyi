@@ -1,12 +1,16 @@
-"""Types of the native module. "Gap" is a smallest distance between boundaries; E_d is 1 where nothing is distorted."""
+"""Types of the native module. "Gap" is a smallest distance between boundaries; E_d is 1 where nothing is distorted.
+
+as_dict() of every class goes through json.dumps(): nested values are dicts, arrays are lists, infinity is None.
+"""
 
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __version__: str
+_Ended: TypeAlias = Literal["not_run", "at_optimum", "enough", "stalled", "out_of_iterations", "distortion_limit"]
 
 class AtlasRefineError(RuntimeError):
     code: Literal["bad_option", "bad_input", "bound_not_reached", "not_certified", "cancelled"]
@@ -34,11 +38,15 @@ class Measures:
     @property
     def pe(self) -> float: ...  # sum of UV triangle areas / area of the UV bounding box
     @property
-    def pe_fixed_aspect(self) -> float: ...  # the same against the smallest box of the asked aspect
+    def pe_fixed_aspect(
+        self,
+    ) -> float: ...  # the same against the smallest box of the texture's shape; pe where the aspect is free
     @property
     def box_width(self) -> float: ...  # UV units
     @property
     def box_height(self) -> float: ...  # UV units
+    @property
+    def unit_square_share(self) -> float: ...  # sum of UV triangle areas: the share of the texture, where the UVs lie in [0, 1]^2
     @property
     def boundary_length(self) -> float: ...  # 3D length of all seams / diagonal of the 3D bounding box
     @property
@@ -81,8 +89,12 @@ class Validity:
     def as_dict(self) -> dict[str, Any]: ...
 
 class ChartReport:
+    """One chart of the input. Texel density: sqrt(UV area / surface area) / the same of the whole atlas."""
+
     @property
     def faces(self) -> int: ...
+    @property
+    def area(self) -> float: ...  # on the surface, model units squared
     @property
     def mirrored(self) -> bool: ...  # was turned over
     @property
@@ -93,6 +105,25 @@ class ChartReport:
     def distortion_after(self) -> float: ...
     @property
     def stretch_max(self) -> float: ...  # after, at the atlas' global scale
+    @property
+    def density_before(self) -> float: ...  # 1 = as dense as the atlas
+    @property
+    def density_after(self) -> float: ...
+    def as_dict(self) -> dict[str, Any]: ...
+
+class PieceReport:
+    """One chart of the output, where charts were cut."""
+
+    @property
+    def chart(self) -> int: ...  # index into RefineResult.charts: what it is a part of
+    @property
+    def faces(self) -> int: ...  # of the output
+    @property
+    def area(self) -> float: ...  # on the surface, model units squared
+    @property
+    def distortion(self) -> float: ...  # E_d of the piece alone at its own best scale
+    @property
+    def stretch_max(self) -> float: ...  # at the atlas' global scale
     def as_dict(self) -> dict[str, Any]: ...
 
 class CutMesh:
@@ -154,11 +185,17 @@ class RefineResult:
     @property
     def iterations(self) -> int: ...  # Newton iterations, all stages
     @property
-    def charts(self) -> list[ChartReport]: ...
+    def ended(self) -> _Ended: ...  # why the last optimisation did
+    @property
+    def charts(self) -> list[ChartReport]: ...  # one for each chart of the input, by their smallest face
+    @property
+    def pieces(self) -> list[PieceReport]: ...  # one for each chart of the output; empty unless "cut"
     @property
     def rectangles(self) -> RectangleReport | None: ...  # only where the charts were cut
     @property
-    def repairs(self) -> list[str]: ...
+    def repairs(self) -> list[str]: ...  # what was mended and where
+    @property
+    def fallbacks(self) -> list[str]: ...  # what was tried first, and what was done instead
     @property
     def warnings(self) -> list[str]: ...
     @property
