@@ -39,6 +39,17 @@ bool better(const ReduceResult& a, const ReduceResult& b) {
   return a.reached ? a.energy < b.energy : a.pe > b.pe;
 }
 
+/// The next gap goes on from here, unless charts have been crushed on the way.
+bool usable(const ReduceResult& result) {
+  constexpr double kCrushed = 1.2;
+  return result.energy < kCrushed;
+}
+
+std::vector<Chart> with_uvs_of(std::vector<Chart> charts, const ReduceResult& result) {
+  for (std::size_t c = 0; c < charts.size(); ++c) charts[c].uvs = result.uvs[c];
+  return charts;
+}
+
 const char* reason(ReduceStatus status) {
   switch (status) {
     case ReduceStatus::TooExpensive:
@@ -81,13 +92,14 @@ std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_boun
 Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor) {
   Squeezed out;
+  std::vector<std::vector<Chart>> present = starts;
   if (options.gaps.front().value < Gap{}.value) out.gap_note = "a larger one leaves the charts no room at the bound";
   for (const Gap& gap : options.gaps) {
-    const int count = static_cast<int>(starts.size());
+    const int count = static_cast<int>(present.size());
     std::vector<ReduceResult> results(count);
     const int inner = std::max(1, options.threads / count);
     parallel_ranges(count, options.threads, 1, [&](int begin, int end) {
-      for (int k = begin; k < end; ++k) results[k] = reduce_from(starts[k], objective, gap, options, inner, monitor);
+      for (int k = begin; k < end; ++k) results[k] = reduce_from(present[k], objective, gap, options, inner, monitor);
     });
     int best = 0;
     for (int k = 0; k < count; ++k) {
@@ -101,6 +113,7 @@ Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const Objective&
     const bool dear = !last && out.outcome.reached && options.max_price > 0 && out.outcome.price > options.max_price;
     if (dear) out.outcome.status = ReduceStatus::TooExpensive;
     if (out.outcome.reached && out.outcome.within_limit && !dear) break;
+    present = usable(out.outcome) ? std::vector<std::vector<Chart>>{with_uvs_of(present[best], out.outcome)} : starts;
   }
   return out;
 }
