@@ -1,7 +1,10 @@
 """Include directions of native/: support <- geometry <- solve <- measure <- cut <- stages <- repair <- report <- roads <- refine <- io, cli."""
 
+import json
 import pathlib
 import re
+import statistics
+import subprocess
 
 import pytest
 
@@ -144,3 +147,38 @@ def test_the_rule_itself():
     assert forbidden("report", "elsewhere")
     assert forbidden("pack", "measure") is None
     assert forbidden("measure", "atlas_refine") is None
+
+
+# The sizes of the house, by Universal Ctags.
+LARGEST_CLASS = 120
+LARGEST_FUNCTION = 50
+MEDIAN_FUNCTION = 7
+
+
+def sizes(kinds, folder=NATIVE):
+    """(lines, name, file) of every definition of these kinds, largest first."""
+    command = ["ctags", "-R", "--languages=C++", "--fields=+ne", "--output-format=json", "-o", "-", "."]
+    tags = map(json.loads, subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout.splitlines())
+    found = [(t["end"] - t["line"] + 1, t["name"], t["path"]) for t in tags if t.get("kind") in kinds and "end" in t]
+    return sorted(found, reverse=True)
+
+
+def test_no_class_is_a_program():
+    classes = sizes({"class", "struct"})
+    assert len(classes) > 100
+    assert [entry for entry in classes if entry[0] > LARGEST_CLASS] == []
+
+
+def test_functions_are_short():
+    functions = sizes({"function"})
+    assert len(functions) > 500
+    assert [entry for entry in functions if entry[0] > LARGEST_FUNCTION] == []
+    assert statistics.median(size for size, _, _ in functions) <= MEDIAN_FUNCTION
+
+
+def test_sizes_are_those_of_definitions(tmp_path):
+    (tmp_path / "a.cpp").write_text(
+        "class A {\n  int f(int x) {\n    return x;\n  }\n};\nint g(int x,\n      int y) {\n  return x;\n}\n"
+    )
+    assert sizes({"class"}, tmp_path) == [(5, "A", "a.cpp")]
+    assert sizes({"function"}, tmp_path) == [(4, "g", "a.cpp"), (3, "f", "a.cpp")]

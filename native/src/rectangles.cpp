@@ -23,7 +23,7 @@ constexpr int kGapSteps = 3;  // smaller automatic gaps tried before extra corne
 // Until faces are restored pieces are kept so much further apart than the gap, which leaves room for the last steps.
 constexpr double kFirstGap = 1.02;
 // Relative change of E_d at which the reduction before that ends, and the one after (the paper: 1e-4 for several iterations).
-constexpr double kFirstChange = 1e-4;
+constexpr double kFirstChange = 5e-4;
 constexpr double kLastChange = 2e-5;
 constexpr double kSpread = 1.01;  // what pieces are put further apart by before the reduction, as a factor on their places
 
@@ -157,12 +157,10 @@ ReduceResult reduce(const Refinement& run, const Gap& gap, double least_change, 
   return reduced;
 }
 
-/// Takes out the vertices that only served the deformation; returns how many.
-int restore(const std::vector<Chart>& charts, CutAtlas& cut) {
+/// Takes out the vertices that only served the deformation.
+void restore(const std::vector<Chart>& charts, CutAtlas& cut) {
   const double scale = dirichlet_sums(meshes_of(cut)).best_scale();
-  int removed = 0;
-  for (Piece& piece : cut.pieces) removed += restore_faces(piece, charts[piece.chart], scale);
-  return removed;
+  for (Piece& piece : cut.pieces) restore_faces(piece, charts[piece.chart], scale);
 }
 
 std::nullopt_t fall_back(const Refinement& run, const std::string& why) {
@@ -203,7 +201,8 @@ std::optional<Solution> refine_by_rectangles(const Refinement& run, const Progre
   ReduceResult reduced = reduce(run, wide, kFirstChange, enough, out.atlas);
   if (!reduced.within_limit) return fall_back(run, "cut, their distortion stays above the largest allowed");
   if (!reduced.reached) return fall_back(run, "that did not reach the bound");
-  if (restore(charts, out.atlas) > 0) reduced = reduce(run, layout.gap, kLastChange, enough, out.atlas);
+  restore(charts, out.atlas);
+  reduced = reduce(run, layout.gap, kLastChange, enough, out.atlas);
   out.gap = layout.gap;
   out.ended = ended_of(reduced.status);
   out.price = reduced.price;

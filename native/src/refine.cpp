@@ -57,21 +57,11 @@ CertifiedSolution certified(const Refinement& run, Solution solution) {
 
 /// Where the charts would have been better off without cuts at the same bound and gap, the warnings say so.
 void compare_with_whole(const Refinement& run, const CertifiedSolution& cut) {
-  RefineOptions options = run.options;
-  options.gap = cut.solution.gap;
-  options.max_distortion = cut.atlas.after.distortion;  // gives up as soon as that is exceeded
-  Journal aside(run.monitor, nullptr, options.box_aspect);
-  try {
-    const Refinement other{run.input, options, run.monitor, aside, run.threads};
-    const CertifiedSolution whole = certified(other, refine_whole(other, {0.95, 0.98}));
-    if (whole.atlas.after.distortion >= cut.atlas.after.distortion || whole.atlas.after.pe_fixed_aspect < options.pe_bound)
-      return;
-    run.journal.warnings.push_back("without cuts the charts hold the same bound with less distortion: E_d " +
-                                   number_text("%.4f", whole.atlas.after.distortion) + " against " +
-                                   number_text("%.4f", cut.atlas.after.distortion));
-  } catch (const RefineError& error) {
-    if (error.code() == ErrorCode::Cancelled) throw;  // else there is nothing to compare with
-  }
+  const double own = cut.atlas.after.distortion;
+  const auto whole = distortion_without_cuts(run, cut.solution.gap, own);
+  if (!whole || *whole >= own) return;
+  run.journal.warnings.push_back("without cuts the charts hold the same bound with less distortion: E_d " +
+                                 number_text("%.4f", *whole) + " against " + number_text("%.4f", own));
 }
 
 /// The road that was asked for; where the one that cuts does not lead to a valid atlas at the bound, the one that does not.

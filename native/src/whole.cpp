@@ -14,6 +14,7 @@ namespace {
 
 // An automatic gap is given up for a smaller one where one more per cent of PE costs more than this per cent of E_d.
 constexpr double kDearestPrice = 3;
+constexpr double kRoughly = 0.75;       // of the bound: a packing good enough to compare with
 constexpr double kRounding = 1 + 1e-6;  // storing single precision must not lose the bound
 
 double packing_efficiency(const std::vector<Chart>& charts, double aspect) {
@@ -61,6 +62,11 @@ std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts) {
   return out;
 }
 
+std::vector<Chart> place(const Refinement& run, const std::vector<Chart>& charts, const Gap& gap, double good_enough) {
+  const PlaceOptions options{gap, run.options.box_aspect, good_enough, run.options.seed, run.threads};
+  return place_charts(charts, options, run.monitor);
+}
+
 void squeeze_into(const Refinement& run, const std::vector<std::vector<Chart>>& starts, const std::vector<Gap>& gaps,
                   Solution& out) {
   const SqueezeOptions options{.pe_bound = run.options.pe_bound,
@@ -95,8 +101,7 @@ Solution refine_whole(const Refinement& run, const ProgressRange& range) {
   const bool scaled = set_density(charts, wanted_density(run.input.set.charts, options.density), options.density);
   const std::vector<Gap> gaps =
       options.gap ? std::vector<Gap>{*options.gap} : automatic_gaps(charts, options.pe_bound, options.box_aspect);
-  const PlaceOptions place{gaps.front(), options.box_aspect, options.pe_bound, options.seed, run.threads};
-  const std::vector<Chart> placed = place_charts(charts, place, run.monitor);
+  const std::vector<Chart> placed = place(run, charts, gaps.front(), options.pe_bound);
   if (const Validity valid = certify_charts(placed); !valid.valid())
     throw RefineError(ErrorCode::BadInput, "pack", "charts could not be placed apart: " + valid.problem, valid.chart, valid.face);
   run.journal.show("placed", placed);
@@ -107,6 +112,24 @@ Solution refine_whole(const Refinement& run, const ProgressRange& range) {
   run.journal.begin_stage("squeeze", range.part(0.4, 1));
   squeeze_into(run, starts_of(run, charts, own_is_valid && !scaled, placed, gaps.front()), gaps, out);
   return out;
+}
+
+std::optional<double> distortion_without_cuts(const Refinement& run, const Gap& gap, double most) {
+  std::vector<Chart> charts = run.input.set.charts;
+  for (const Chart& chart : charts) {
+    if (!certify_charts({chart}).valid()) return std::nullopt;
+  }
+  set_density(charts, wanted_density(charts, run.options.density), run.options.density);
+  const std::vector<Chart> placed = place(run, charts, gap, kRoughly * run.options.pe_bound);
+  const SqueezeOptions options{.pe_bound = run.options.pe_bound,
+                               .box_aspect = run.options.box_aspect,
+                               .gaps = {gap},
+                               .max_distortion = most,
+                               .threads = run.threads};
+  const Objective objective = goal_of(run.input.set.charts, whole_atlas(charts), run.options);
+  const ReduceResult result = squeeze({placed}, objective, options, run.monitor).outcome;
+  if (!result.reached || !result.within_limit) return std::nullopt;
+  return result.distortion;
 }
 
 }  // namespace atlas_refine

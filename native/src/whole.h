@@ -1,6 +1,8 @@
 // The road without cuts: charts stay whole, are placed anew, and bend as far as the bound needs (the squeeze).
 #pragma once
 
+#include <optional>
+
 #include "report/solution.h"
 
 namespace atlas_refine {
@@ -8,5 +10,9 @@ namespace atlas_refine {
 /// The least intervention that holds the bound, or, where none does, the best that was found. Throws RefineError(BadInput) naming
 /// the chart that no embedding without a cut exists or was found for.
 Solution refine_whole(const Refinement& run, const ProgressRange& range);
+
+/// E_d that the charts would have without cuts at the bound with this gap; nothing where that is above `most`, or some chart
+/// overlaps itself.
+std::optional<double> distortion_without_cuts(const Refinement& run, const Gap& gap, double most);
 
 }  // namespace atlas_refine

@@ -7,12 +7,12 @@
 #include <limits>
 
 #include "geometry/boundary.h"
+#include "geometry/plane.h"
 #include "support/rng.h"
 
 namespace atlas_refine {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Vec2 at(const Moving& m, double t) { return m.position + t * m.displacement; }
 Moving random_moving(Rng& rng) {
   return {Vec2(rng.uniform(-1, 1), rng.uniform(-1, 1)), Vec2(rng.uniform(-1, 1), rng.uniform(-1, 1))};

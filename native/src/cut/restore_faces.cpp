@@ -37,6 +37,47 @@ bool lies_between(const Support& v, const Support& a, const Support& b) {
   return false;
 }
 
+/// Takes vertices out of the piece; the new number of each old one, -1 where it went.
+template <class Kept>
+std::vector<int> keep_vertices(Piece& piece, Kept&& kept) {
+  std::vector<int> number(piece.mesh.vertex_count(), -1);
+  int count = 0;
+  for (int v = 0; v < piece.mesh.vertex_count(); ++v) {
+    if (!kept(v)) continue;
+    number[v] = count;
+    piece.mesh.uvs[count] = piece.mesh.uvs[v];
+    piece.vertices[count] = piece.vertices[v];
+    piece.points[count] = piece.points[v];
+    piece.supports[count++] = piece.supports[v];
+  }
+  piece.mesh.uvs.resize(count);
+  piece.vertices.resize(count);
+  piece.points.resize(count);
+  piece.supports.resize(count);
+  for (auto& loop : piece.mesh.boundary_loops) {
+    for (int& v : loop) v = number[v];
+  }
+  return number;
+}
+
+/// Takes out the triangles that are gone (vertices -1) and numbers the vertices of the others anew.
+void keep_triangles(Piece& piece, const std::vector<int>& number, std::vector<RestTriangle>& shapes) {
+  Chart& mesh = piece.mesh;
+  int count = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.triangles[t][0] < 0) continue;
+    for (int k = 0; k < 3; ++k) mesh.triangles[count][k] = number[mesh.triangles[t][k]];
+    shapes[count] = shapes[t];
+    mesh.triangle_faces[count] = mesh.triangle_faces[t];
+    piece.sources[count++] = piece.sources[t];
+  }
+  mesh.triangles.resize(count);
+  shapes.resize(count);
+  mesh.triangle_faces.resize(count);
+  piece.sources.resize(count);
+  mesh.surface = Surface(std::move(shapes));
+}
+
 class Restorer {
  public:
   Restorer(Piece& piece, const Chart& source, double scale)
@@ -60,7 +101,10 @@ class Restorer {
     for (int v = piece_.mesh.vertex_count() - 1; v >= 0; --v) {
       if (piece_.points[v] >= 0 && !outer[v] && remove(v)) ++removed;
     }
-    if (removed > 0) compact();
+    if (removed > 0) {
+      const auto numbers = keep_vertices(piece_, [&](int v) { return !around_[v].empty(); });
+      keep_triangles(piece_, numbers, shapes_);
+    }
     return removed;
   }
 
@@ -119,39 +163,6 @@ class Restorer {
     piece_.mesh.triangles[t] = triangle;
     shapes_[t] = rest;
     for (int w : triangle) around_[w].push_back(t);
-  }
-
-  void compact() {
-    std::vector<int> number(piece_.mesh.vertex_count(), -1);
-    int kept = 0;
-    for (int v = 0; v < piece_.mesh.vertex_count(); ++v) {
-      if (around_[v].empty()) continue;
-      number[v] = kept;
-      piece_.mesh.uvs[kept] = piece_.mesh.uvs[v];
-      piece_.vertices[kept] = piece_.vertices[v];
-      piece_.points[kept] = piece_.points[v];
-      piece_.supports[kept++] = piece_.supports[v];
-    }
-    piece_.mesh.uvs.resize(kept);
-    piece_.vertices.resize(kept);
-    piece_.points.resize(kept);
-    piece_.supports.resize(kept);
-    int triangles = 0;
-    for (std::size_t t = 0; t < piece_.mesh.triangles.size(); ++t) {
-      if (piece_.mesh.triangles[t][0] < 0) continue;
-      for (int k = 0; k < 3; ++k) piece_.mesh.triangles[triangles][k] = number[piece_.mesh.triangles[t][k]];
-      shapes_[triangles] = shapes_[t];
-      piece_.mesh.triangle_faces[triangles] = piece_.mesh.triangle_faces[t];
-      piece_.sources[triangles++] = piece_.sources[t];
-    }
-    piece_.mesh.triangles.resize(triangles);
-    shapes_.resize(triangles);
-    piece_.mesh.surface = Surface(std::move(shapes_));
-    piece_.mesh.triangle_faces.resize(triangles);
-    piece_.sources.resize(triangles);
-    for (auto& loop : piece_.mesh.boundary_loops) {
-      for (int& v : loop) v = number[v];
-    }
   }
 
   Piece& piece_;

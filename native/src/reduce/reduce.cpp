@@ -153,6 +153,12 @@ struct Change {
   double energy, pe;
 };
 
+/// Above the largest distortion, and losing it so slowly that the limit is out of reach.
+bool hopeless(const Task& task, const Iterate& at, const Change& change) {
+  constexpr double kSlow = 0.1;  // of the way to the limit in one iteration
+  return at.fraction > 0.5 && -change.energy < kSlow * (at.distortion - task.problem.max_distortion);
+}
+
 Counters counted(const Task& task, const Change& change, const Iterate& at, const Schedule& schedule, Counters counters) {
   const ReduceProblem& problem = task.problem;
   const double deficit = task.deficit(at, schedule.margin);
@@ -164,7 +170,7 @@ Counters counted(const Task& task, const Change& change, const Iterate& at, cons
   // A price under heavy damping tells of a collision, not of distortion.
   const bool expensive = at.price > problem.max_price && schedule.damping <= kTelling;
   counters.expensive = expensive ? counters.expensive + 1 : 0;
-  counters.distorted = !task.within_limit(at) && quiet ? counters.distorted + 1 : 0;
+  counters.distorted = !task.within_limit(at) && (quiet || hopeless(task, at, change)) ? counters.distorted + 1 : 0;
   const bool progress = moved > 1e-5 * (at.energy - 1) + 0.1 * kNegligible || change.pe > 1e-5 * at.pe;
   counters.idle = progress ? 0 : counters.idle + 1;
   return counters;

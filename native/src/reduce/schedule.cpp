@@ -55,8 +55,9 @@ void adapt(Schedule& schedule, const ScheduleView& view, double price, double fr
     schedule.damping = std::max(kLeastDamping, 0.5 * schedule.damping);
   else if (fraction < 0.1)
     schedule.damping = std::min(kMostDamping, 4 * schedule.damping);
-  if (view.bounded && view.deficit < kNearTarget && (!schedule.relaxing || view.deficit > -kNearTarget))
-    schedule.firmness = std::max(kSoftFirmness, kSoftening * schedule.firmness);
+  const bool near = view.deficit < kNearTarget && (!schedule.relaxing || view.deficit > -kNearTarget);
+  schedule.arrived = schedule.arrived || (view.bounded && near);
+  if (schedule.arrived) schedule.firmness = std::max(kSoftFirmness, kSoftening * schedule.firmness);
   // A relaxing barrier that followed a price of its own making would freeze.
   const double felt = schedule.relaxing ? std::min(price, dearest_price(schedule, view.energy)) : price;
   const double wanted = schedule.firmness * std::max(felt, least_price(schedule.relaxing, view.energy)) * view.range;

@@ -6,6 +6,7 @@ namespace atlas_refine {
 /// What the schedule carries from one iteration to the next.
 struct Schedule {
   bool relaxing = false;  ///< the start lies above the PE target and loses distortion on the way down to it
+  bool arrived = false;   ///< the target was reached: the barrier softens from then on, though that may make PE dip
   double firmness = 0;    ///< stiffness of the barrier per price and range
   double stiffness = 0;   ///< of the barrier
   double margin = 0;      ///< relative, that is kept above the target while relaxing

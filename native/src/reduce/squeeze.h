@@ -30,8 +30,8 @@ struct Squeezed {
 std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_bound, double box_aspect);
 
 /// Reduces from every start (each free of flips, crossings and nearer charts than the first gap) and keeps the result of least
-/// distortion that holds the bound. Where none does at a sane price the next gap is tried, from the best state so far unless charts
-/// were crushed there; in the end the state of the highest PE is returned. Starts run in parallel; the choice is by the
+/// distortion that holds the bound. Where none does at a sane price the next gap is tried, from the best state so far unless
+/// charts were crushed there; in the end the state of the highest PE is returned. Starts run in parallel; the choice is by the
 /// objective, ties by index.
 Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor);
