@@ -59,7 +59,8 @@ void embed_broken_polygons(const Refinement& run, std::vector<Chart>& charts, st
   }
 }
 
-/// Axis-aligned charts. Those that are left as they are lie in the layout as they are: they must not overlap themselves.
+/// Axis-aligned charts at their wanted densities. Those that are left as they are lie in the layout as they are: they must not
+/// overlap themselves.
 AlignedCharts align(const Refinement& run, std::vector<Chart>& charts, std::vector<int>& embedded) {
   const AlignOptions options{run.options.rectangles.sigma, run.threads};
   AlignedCharts aligned = align_charts(charts, options, run.monitor);
@@ -68,6 +69,10 @@ AlignedCharts align(const Refinement& run, std::vector<Chart>& charts, std::vect
     embed(run, c, charts, embedded);
     set_density(charts, wanted_density(run.input.set.charts, run.options.density), run.options.density);
     aligned[c] = std::move(align_charts({charts[c]}, options, run.monitor).front());
+  }
+  const std::vector<double> wanted = wanted_density(run.input.set.charts, run.options.density);
+  for (std::size_t c = 0; c < aligned.size(); ++c) {
+    for (Vec2& uv : aligned[c].mesh.uvs) uv *= wanted[c];
   }
   return aligned;
 }
@@ -163,14 +168,9 @@ void restore(const std::vector<Chart>& charts, CutAtlas& cut) {
   for (Piece& piece : cut.pieces) restore_faces(piece, charts[piece.chart], scale);
 }
 
-std::nullopt_t fall_back(const Refinement& run, const std::string& why) {
-  run.journal.fallbacks.push_back("charts were not cut into rectangles: " + why + "; they are squeezed");
-  return std::nullopt;
-}
-
 }  // namespace
 
-std::optional<Solution> refine_by_rectangles(const Refinement& run, const ProgressRange& range) {
+Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) {
   const RefineOptions& options = run.options;
   Journal& journal = run.journal;
   Solution out{.intervention = Intervention::Cut};
@@ -186,29 +186,31 @@ std::optional<Solution> refine_by_rectangles(const Refinement& run, const Progre
   journal.begin_stage("layout", range.part(0.35, 0.45));  // section 3.2
   const Layout layout = search_layout(aligned, charts, layout_options(run), run.monitor);
   out.atlas = cut_along_trails(run, aligned, charts, layout);
-  if (out.atlas.seams.empty()) return fall_back(run, "no chart needs a cut");
+  if (out.atlas.seams.empty()) return {.needless = true};
   if (journal.draws()) {
     for (const auto& picture : rectangle_pictures(charts, aligned, layout.trails, options.rectangles.sigma))
       journal.show(picture);
   }
   place(run, layout, out.atlas);
-  if (const Validity start = certify_charts(meshes_of(out.atlas)); !start.valid())
-    return fall_back(run, "in their layout " + start.problem);
+  const Validity start = certify_charts(meshes_of(out.atlas));
+  if (!start.valid()) return {.failure = "in their layout " + start.problem};
 
   journal.begin_stage("reduce", range.part(0.45, 1));  // section 3.3
   Gap wide = layout.gap;
   wide.value *= kFirstGap;
   ReduceResult reduced = reduce(run, wide, kFirstChange, enough, out.atlas);
-  if (!reduced.within_limit) return fall_back(run, "cut, their distortion stays above the largest allowed");
-  if (!reduced.reached) return fall_back(run, "that did not reach the bound");
-  restore(charts, out.atlas);
-  reduced = reduce(run, layout.gap, kLastChange, enough, out.atlas);
+  if (reduced.reached && reduced.within_limit) {
+    restore(charts, out.atlas);
+    reduced = reduce(run, layout.gap, kLastChange, enough, out.atlas);
+  }
+  if (!reduced.within_limit) return {.failure = "cut, their distortion stays above the largest allowed"};
+  if (!reduced.reached) return {.failure = "cut, they do not reach the bound"};
   out.gap = layout.gap;
   out.ended = ended_of(reduced.status);
   out.price = reduced.price;
   out.rectangles = report_of(aligned, layout);
   tell(run, aligned, layout, *out.rectangles);
-  return out;
+  return {.solution = std::move(out)};
 }
 
 }  // namespace atlas_refine

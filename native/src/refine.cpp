@@ -2,6 +2,7 @@
 #include "atlas_refine/refine.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "input/check_atlas.h"
 #include "measure/certificate.h"
@@ -55,33 +56,51 @@ CertifiedSolution certified(const Refinement& run, Solution solution) {
   return {std::move(solution), std::move(atlas)};
 }
 
-/// Where the charts would have been better off without cuts at the same bound and gap, the warnings say so.
+/// Where the charts would have been better off without cuts at the same bound, the warnings say so.
 void compare_with_whole(const Refinement& run, const CertifiedSolution& cut) {
+  constexpr double kWorthTelling = 1e-4;  // of E_d
+  run.journal.begin_stage("compare", {0.97, 1});
   const double own = cut.atlas.after.distortion;
-  const auto whole = distortion_without_cuts(run, cut.solution.gap, own);
-  if (!whole || *whole >= own) return;
+  const auto whole = distortion_without_cuts(run, own - kWorthTelling);
+  if (!whole) return;
   run.journal.warnings.push_back("without cuts the charts hold the same bound with less distortion: E_d " +
                                  number_text("%.4f", *whole) + " against " + number_text("%.4f", own));
 }
 
-/// The road that was asked for; where the one that cuts does not lead to a valid atlas at the bound, the one that does not.
-CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
-  if (run.options.seams == Seams::Rectangles) {
-    try {
-      if (auto cut = refine_by_rectangles(run, range)) {
-        CertifiedSolution result = certified(run, std::move(*cut));
-        if (!run.options.rectangles.until_input) compare_with_whole(run, result);
-        return result;
-      }
-    } catch (const RefineError& error) {
-      if (error.code() != ErrorCode::NotCertified) throw;
-      run.journal.fallbacks.push_back(std::string("charts were not cut into rectangles: ") + error.what() +
-                                      "; they are squeezed");
+/// The road that cuts; nothing where charts are better left whole, which the journal then says.
+std::optional<CertifiedSolution> solve_with_cuts(const Refinement& run, const ProgressRange& range) {
+  Journal& journal = run.journal;
+  const Journal::Mark before = journal.mark();
+  std::string failure;
+  try {
+    Attempt attempt = refine_by_rectangles(run, range);
+    if (attempt.solution) {
+      CertifiedSolution result = certified(run, std::move(*attempt.solution));
+      if (!run.options.rectangles.until_input) compare_with_whole(run, result);
+      return result;
     }
+    if (attempt.needless) {
+      journal.back_to(before);
+      journal.warnings.emplace_back("no chart needs a cut");
+      return std::nullopt;
+    }
+    failure = attempt.failure;
+  } catch (const RefineError& error) {
+    if (error.code() != ErrorCode::NotCertified) throw;
+    failure = error.what();
   }
-  // Also where no cut was needed, that road goes on to the optimum under the bound.
+  journal.back_to(before);
+  journal.fallbacks.push_back("charts were not cut into rectangles: " + failure);
+  return std::nullopt;
+}
+
+CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
   RefineOptions options = run.options;
-  options.relax = options.relax || (options.seams == Seams::Rectangles && !options.rectangles.until_input);
+  if (options.seams == Seams::Rectangles) {
+    if (auto cut = solve_with_cuts(run, range)) return std::move(*cut);
+    // Also where charts are not cut, that road goes on to the optimum under the bound.
+    options.relax = options.relax || !options.rectangles.until_input;
+  }
   const Refinement whole{run.input, options, run.monitor, run.journal, run.threads};
   return certified(whole, refine_whole(whole, range));
 }
@@ -119,6 +138,22 @@ RefineResult result_of(const InputAtlas& input, const RefineOptions& options, co
   return result;
 }
 
+/// With kept densities the charts whose texel density the squeeze has changed all the same.
+void warn_of_density(const RefineOptions& options, const std::vector<ChartReport>& charts, Journal& journal) {
+  constexpr double kNotable = 0.1;
+  if (options.density != Density::Keep) return;
+  std::vector<int> changed;
+  double most = 0;
+  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+    const double change = std::abs(charts[c].density_after / charts[c].density_before - 1);
+    if (change > kNotable) changed.push_back(c);
+    most = std::max(most, change);
+  }
+  if (!changed.empty())
+    journal.warnings.push_back(charts_named(changed) + ": bending changed the texel density by up to " +
+                               number_text("%.0f %%", 100 * most));
+}
+
 void warn_of_early_end(const Solution& solution, Journal& journal) {
   const char* why = solution.ended == Ended::Stalled           ? "stalled"
                     : solution.ended == Ended::OutOfIterations ? "ran out of iterations"
@@ -140,6 +175,7 @@ RefineResult refine_input(const Atlas& atlas, const RefineOptions& options, Moni
   if (holds && result.atlas.after.distortion >= input.measures.distortion) return unchanged(input, options);
   journal.show(to_string(result.solution.intervention), result.atlas.stored);
   warn_of_early_end(result.solution, journal);
+  warn_of_density(options, result.atlas.charts, journal);
   return result_of(input, options, result.solution, std::move(result.atlas));
 }
 

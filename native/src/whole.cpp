@@ -12,7 +12,7 @@
 namespace atlas_refine {
 namespace {
 
-// An automatic gap is given up for a smaller one where one more per cent of PE costs more than this per cent of E_d.
+// An automatic gap is given up for a smaller one where one more per cent of PE costs more than this per cent of E_d itself.
 constexpr double kDearestPrice = 3;
 constexpr double kRoughly = 0.75;       // of the bound: a packing good enough to compare with
 constexpr double kRounding = 1 + 1e-6;  // storing single precision must not lose the bound
@@ -67,6 +67,12 @@ std::vector<Chart> place(const Refinement& run, const std::vector<Chart>& charts
   return place_charts(charts, options, run.monitor);
 }
 
+std::vector<Gap> gaps_of(const Refinement& run, const std::vector<Chart>& charts) {
+  const RefineOptions& options = run.options;
+  if (options.gap) return {*options.gap};
+  return automatic_gaps(charts, options.pe_bound, options.box_aspect);
+}
+
 void squeeze_into(const Refinement& run, const std::vector<std::vector<Chart>>& starts, const std::vector<Gap>& gaps,
                   Solution& out) {
   const SqueezeOptions options{.pe_bound = run.options.pe_bound,
@@ -99,8 +105,7 @@ Solution refine_whole(const Refinement& run, const ProgressRange& range) {
 
   run.journal.begin_stage("pack", range.part(0.2, 0.4));
   const bool scaled = set_density(charts, wanted_density(run.input.set.charts, options.density), options.density);
-  const std::vector<Gap> gaps =
-      options.gap ? std::vector<Gap>{*options.gap} : automatic_gaps(charts, options.pe_bound, options.box_aspect);
+  const std::vector<Gap> gaps = gaps_of(run, charts);
   const std::vector<Chart> placed = place(run, charts, gaps.front(), options.pe_bound);
   if (const Validity valid = certify_charts(placed); !valid.valid())
     throw RefineError(ErrorCode::BadInput, "pack", "charts could not be placed apart: " + valid.problem, valid.chart, valid.face);
@@ -114,20 +119,24 @@ Solution refine_whole(const Refinement& run, const ProgressRange& range) {
   return out;
 }
 
-std::optional<double> distortion_without_cuts(const Refinement& run, const Gap& gap, double most) {
+std::optional<double> distortion_without_cuts(const Refinement& run, double most) {
   std::vector<Chart> charts = run.input.set.charts;
   for (const Chart& chart : charts) {
     if (!certify_charts({chart}).valid()) return std::nullopt;
   }
   set_density(charts, wanted_density(charts, run.options.density), run.options.density);
-  const std::vector<Chart> placed = place(run, charts, gap, kRoughly * run.options.pe_bound);
+  const std::vector<Gap> gaps = gaps_of(run, charts);
+  const std::vector<Chart> placed = place(run, charts, gaps.front(), kRoughly * run.options.pe_bound);
   const SqueezeOptions options{.pe_bound = run.options.pe_bound,
                                .box_aspect = run.options.box_aspect,
-                               .gaps = {gap},
+                               .gaps = gaps,
                                .max_distortion = most,
+                               .max_price = kDearestPrice,
                                .threads = run.threads};
   const Objective objective = goal_of(run.input.set.charts, whole_atlas(charts), run.options);
-  const ReduceResult result = squeeze({placed}, objective, options, run.monitor).outcome;
+  const Squeezed squeezed = squeeze({placed}, objective, options, run.monitor);
+  run.journal.iterations += squeezed.iterations;
+  const ReduceResult& result = squeezed.outcome;
   if (!result.reached || !result.within_limit) return std::nullopt;
   return result.distortion;
 }

@@ -11,8 +11,7 @@ namespace atlas_refine {
 /// the chart that no embedding without a cut exists or was found for.
 Solution refine_whole(const Refinement& run, const ProgressRange& range);
 
-/// E_d that the charts would have without cuts at the bound with this gap; nothing where that is above `most`, or some chart
-/// overlaps itself.
-std::optional<double> distortion_without_cuts(const Refinement& run, const Gap& gap, double most);
+/// E_d that the charts would have without cuts at the bound; nothing where that is above `most`, or some chart overlaps itself.
+std::optional<double> distortion_without_cuts(const Refinement& run, double most);
 
 }  // namespace atlas_refine

@@ -43,7 +43,8 @@ struct ChartSides {
   std::vector<bool> turned_faces;  ///< one per face: it runs backwards in its chart
 };
 
-/// A chart is mirrored where the UV area of its faces, wound as the input has them, sums to less than zero. Then u is negated.
+/// A chart is mirrored where the UV area of its faces, wound as the input has them, sums to less than zero; one whose faces are
+/// wound both ways is not: they do not agree on it. Then u is negated.
 /// Either way its faces are turned together so that the chart's area is positive; faces that are not are defects.
 ChartSides orient_charts(const Atlas& atlas, const EdgeJoins& joins, const FaceCharts& charts) {
   std::vector<double> as_wound(charts.count, 0), as_joined(charts.count, 0);
@@ -56,7 +57,7 @@ ChartSides orient_charts(const Atlas& atlas, const EdgeJoins& joins, const FaceC
   for (int f = 0; f < atlas.face_count(); ++f) {
     if (joins.turned_faces[f]) sides.mixed[charts.chart[f]] = true;  // against the chart's first face
   }
-  for (int k = 0; k < charts.count; ++k) sides.mirrored[k] = as_wound[k] < 0;
+  for (int k = 0; k < charts.count; ++k) sides.mirrored[k] = as_wound[k] < 0 && !sides.mixed[k];
   for (int f = 0; f < atlas.face_count(); ++f) {
     const int k = charts.chart[f];
     const bool negative = (as_joined[k] < 0) != sides.mirrored[k];

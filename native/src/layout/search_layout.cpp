@@ -88,12 +88,6 @@ void add_quad_meshes(Round& round, const std::vector<AxisAlignedChart>& aligned,
   }
 }
 
-Vec2 likely_box(double area, double box_aspect) {
-  const double aspect = box_aspect > 0 ? box_aspect : 1;
-  const double height = std::sqrt(area / kLikelyPe / aspect);
-  return {aspect * height, height};
-}
-
 /// The first round tries as many as were asked for; those after it that miss the bound fewer where there are many rectangles.
 int candidate_count(const Round& round, const LayoutOptions& options) {
   std::size_t faces = 1;
@@ -238,7 +232,7 @@ Layout layout_of(const Candidate& candidate, const Round& round) {
 }
 
 Layout search_round(const Round& round, const LayoutOptions& options, Monitor& monitor) {
-  double padding = padding_of(round.gap, likely_box(round.area, options.box_aspect));
+  double padding = padding_of(round.gap, sides_of_area(round.area / kLikelyPe, options.box_aspect));
   std::vector<Candidate> finalists = run_chains(round, options, padding, monitor);
   Candidate best = std::move(finalists.front());
   for (Candidate& candidate : finalists) {

@@ -129,4 +129,9 @@ Box box_of_aspect(const Box& box, double aspect) {
   return {box.min, box.min + Vec2(height * aspect, height)};
 }
 
+Vec2 sides_of_area(double area, double aspect) {
+  const double height = std::sqrt(area / (aspect > 0 ? aspect : 1));
+  return {height * (aspect > 0 ? aspect : 1), height};
+}
+
 }  // namespace atlas_refine

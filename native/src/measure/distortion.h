@@ -37,5 +37,7 @@ double uv_area(const std::vector<Chart>& charts);
 Box uv_box(const std::vector<Chart>& charts);
 /// The smallest box of `aspect` (width / height) that holds `box`, same min corner; `box` itself where aspect is 0.
 Box box_of_aspect(const Box& box, double aspect);
+/// Sides of the box of this area and aspect; a square where aspect is 0.
+Vec2 sides_of_area(double area, double aspect);
 
 }  // namespace atlas_refine

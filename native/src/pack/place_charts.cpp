@@ -11,6 +11,8 @@ namespace atlas_refine {
 namespace {
 
 // What is kept beyond the gap: the squeeze starts in a slightly larger box, and rounding to single precision must not lose it.
+// Rather too large a guess of the box, whose gap costs little, than a second round of packing.
+constexpr double kLikelyPe = 0.6;
 constexpr double kMoreThanGap = 1.0065;
 
 Outline outline_of(const Chart& chart) {
@@ -20,13 +22,6 @@ Outline outline_of(const Chart& chart) {
     for (int v : loop) points.push_back(chart.uvs[v]);
   }
   return outline;
-}
-
-/// Sides of a box of the asked aspect that the charts would fill to 60 %: rather too large a guess, whose gap costs little, than
-/// a second round of packing.
-Vec2 likely_box(double area, double aspect) {
-  const double height = std::sqrt(area / 0.6 / (aspect > 0 ? aspect : 1));
-  return {height * (aspect > 0 ? aspect : 1), height};
 }
 
 }  // namespace
@@ -46,7 +41,7 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
                    .seed = options.seed,
                    .threads = options.threads,
                    .tick = [&](double fraction) { monitor.report(fraction); }};
-  pack.gap = options.gap.length(likely_box(area, options.box_aspect));
+  pack.gap = options.gap.length(sides_of_area(area / kLikelyPe, options.box_aspect));
   Packing packing = pack_charts(outlines, areas, pack);
   // A larger gap makes a larger box; a little more than asked each time ends this after one or two rounds.
   for (double more = 1.007; charts.size() > 1 && pack.gap < kMoreThanGap * options.gap.length(packing.box.size()); more += 0.01) {

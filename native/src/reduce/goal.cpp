@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "measure/distortion.h"
 
@@ -49,7 +50,9 @@ bool set_density(std::vector<Chart>& charts, const std::vector<double>& wanted, 
 }
 
 Objective goal_of(const std::vector<Chart>& input, const CutAtlas& atlas, const RefineOptions& options) {
-  ObjectiveRequest request{.importance = options.importance};
+  const std::vector<double>& importance = options.importance;
+  const bool uniform = std::adjacent_find(importance.begin(), importance.end(), std::not_equal_to<>()) == importance.end();
+  ObjectiveRequest request{.importance = uniform ? std::vector<double>() : importance};
   if (options.density == Density::Keep) {
     const std::vector<double> wanted = wanted_density(input, options.density);
     for (const Piece& piece : atlas.pieces) request.density.push_back(wanted[piece.chart]);

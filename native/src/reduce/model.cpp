@@ -16,7 +16,8 @@ namespace {
 constexpr double kRangeFraction = 0.0025;
 // A step moves no vertex further than this fraction of the surface's size, which bounds the search for collisions.
 constexpr double kLongestMove = 0.25;
-constexpr double kShortOf = 0.95;  // of the first flip or collision
+constexpr double kBoxGrowth = 0.0035;  // of a box of fixed aspect
+constexpr double kShortOf = 0.95;      // of the first flip or collision
 
 Box box_of(const std::vector<Vec2>& x) {
   Box box{x.front(), x.front()};
@@ -44,9 +45,10 @@ void place_start(ReduceModel& model) {
   const Vec2 size = box_of_aspect(tight, model.aspect).size();
   model.range = kRangeFraction * size.norm();
   model.open_unit = model.gap.unit == Gap::Unit::BoxDiagonal ? size.norm() : size.maxCoeff();
-  const double slack = 0.5 * model.range;
-  for (Vec2& x : model.start.x) x += Vec2::Constant(slack) - tight.min;
-  model.start.box = box_of_aspect({Vec2::Zero(), size + Vec2::Constant(2 * slack)}, model.aspect).size();
+  // The box grows a little, so that no chart touches a wall, and by less than kStartGap: the gap follows it.
+  const Vec2 slack = model.aspect == 0 ? Vec2(Vec2::Constant(0.5 * model.range)) : Vec2(0.5 * kBoxGrowth * size);
+  for (Vec2& x : model.start.x) x += slack - tight.min;
+  model.start.box = size + 2 * slack;
 }
 
 void set_masses(ReduceModel& model) {

@@ -15,7 +15,8 @@ namespace {
 constexpr double kNegligible = 1e-8;  // a change of E_d that nobody can measure
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kStallIterations = 12;
-constexpr double kTelling = 1;  // damping up to which the price is that of distortion
+constexpr double kCheap = 1.005;  // an objective up to which no price is too high
+constexpr double kTelling = 1;    // damping up to which the price is that of distortion
 
 /// Where the iteration is.
 struct Iterate {
@@ -73,7 +74,9 @@ void assemble(const ReduceModel& model, const ReduceState& state, double stiffne
     auto pairs = triangle_sides(model.triangles);
     const auto coupled = coupled_nodes(model, state, contacts);
     pairs.insert(pairs.end(), coupled.begin(), coupled.end());
-    system.matrix.analyse(model.node_count(), pairs, model.has_box ? model.box_node() : -1);
+    // The first order serves as well: a few new contacts hardly change the fill.
+    std::vector<int> order = system.matrix.elimination_order();
+    system.matrix.analyse(model.node_count(), pairs, model.has_box ? model.box_node() : -1, std::move(order));
     slots = triangle_slots(system.matrix, model.triangles);
   }
   system.set_zero();
@@ -150,13 +153,13 @@ void advance(const Task& task, const Step& step, const Schedule& schedule, Itera
 
 /// What one iteration changed.
 struct Change {
-  double energy, pe;
+  double energy, distortion, pe;
 };
 
 /// Above the largest distortion, and losing it so slowly that the limit is out of reach.
 bool hopeless(const Task& task, const Iterate& at, const Change& change) {
-  constexpr double kSlow = 0.1;  // of the way to the limit in one iteration
-  return at.fraction > 0.5 && -change.energy < kSlow * (at.distortion - task.problem.max_distortion);
+  constexpr double kSlow = 0.05;  // of the way to the limit in one iteration
+  return at.fraction > 0.5 && -change.distortion < kSlow * (at.distortion - task.problem.max_distortion);
 }
 
 Counters counted(const Task& task, const Change& change, const Iterate& at, const Schedule& schedule, Counters counters) {
@@ -165,10 +168,12 @@ Counters counted(const Task& task, const Change& change, const Iterate& at, cons
   const bool on_target = !task.bounded() || std::abs(deficit) < 1e-4 || (task.holds_bound(at) && at.price == 0);
   const double moved = std::abs(change.energy);
   const bool quiet = moved < problem.least_change * (at.energy - 1) + problem.negligible && at.fraction > 0.1;
-  const bool calm = on_target && quiet && settled(schedule, task.view(at, schedule.margin), at.price);
+  const bool calm =
+      on_target && quiet && schedule.damping <= kTelling && settled(schedule, task.view(at, schedule.margin), at.price);
   counters.calm = calm ? counters.calm + 1 : 0;
-  // A price under heavy damping tells of a collision, not of distortion.
-  const bool expensive = at.price > problem.max_price && schedule.damping <= kTelling;
+  // A price under heavy damping tells of a collision, and while distortion still falls it tells of the start.
+  const bool telling = schedule.damping <= kTelling && change.energy > 0 && at.energy > kCheap;
+  const bool expensive = telling && at.price > problem.max_price * at.energy;
   counters.expensive = expensive ? counters.expensive + 1 : 0;
   counters.distorted = !task.within_limit(at) && (quiet || hopeless(task, at, change)) ? counters.distorted + 1 : 0;
   const bool progress = moved > 1e-5 * (at.energy - 1) + 0.1 * kNegligible || change.pe > 1e-5 * at.pe;
@@ -180,7 +185,7 @@ std::optional<ReduceStatus> ended(const Task& task, const Iterate& at, const Sch
                                   double first_energy) {
   const ReduceProblem& problem = task.problem;
   const bool holds = task.holds_bound(at);
-  if (holds && counters.calm >= 2) return ReduceStatus::Converged;
+  if (holds && counters.calm >= 2) return task.within_limit(at) ? ReduceStatus::Converged : ReduceStatus::TooDistorted;
   if (holds && problem.enough_distortion > 0 && at.energy <= problem.enough_distortion) return ReduceStatus::Enough;
   if (counters.distorted >= 4) return ReduceStatus::TooDistorted;
   if (!holds && problem.max_price > 0 && counters.expensive >= 3) return ReduceStatus::TooExpensive;
@@ -247,14 +252,16 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
       status = ReduceStatus::Stalled;
       break;
     }
-    const double energy_before = at.energy, pe_before = at.pe;
+    const double energy = at.energy, distortion = at.distortion, pe = at.pe;
     advance(task, *step, schedule, at);
-    if (relaxing) adapt_margin(schedule, std::abs(std::log(at.pe / pe_before) - at.fraction * step->predicted_gain));
+    if (relaxing) adapt_margin(schedule, std::abs(std::log(at.pe / pe) - at.fraction * step->predicted_gain));
     adapt(schedule, task.view(at, schedule.margin), at.price, at.fraction);
     if (better(task, at, best)) best = at;
-    counters = counted(task, {at.energy - energy_before, at.pe - pe_before}, at, schedule, counters);
+    counters = counted(task, {at.energy - energy, at.distortion - distortion, at.pe - pe}, at, schedule, counters);
   }
-  return result_of(task, best, status, schedule.stiffness, iteration);
+  ReduceResult out = result_of(task, best, status, schedule.stiffness, iteration);
+  out.first_energy = first_energy;
+  return out;
 }
 
 }  // namespace atlas_refine

@@ -24,7 +24,7 @@ struct ReduceProblem {
   double least_change = 2e-4;    ///< at the optimum where the objective - 1 changes by less, relative, twice in a row
   double negligible = 1e-8;      ///< or by less than this
   double max_distortion = 0;     ///< of the surface's E_d: give up the climb once it is exceeded at its least; 0 = no limit
-  double max_price = 0;          ///< give up the climb where lambda exceeds this below the target; 0 = no limit
+  double max_price = 0;  ///< give up the climb where lambda exceeds this times the objective below the target; 0 = no limit
   int max_iterations = 600;
   int threads = 1;
 };
@@ -56,9 +56,10 @@ struct ReduceResult {
   bool reached = false;      ///< PE of the charts' own bounding box (of the asked aspect) is at least the target
   bool within_limit = true;  ///< E_d is at most max_distortion
   double pe = 0;
-  double energy = 0;      ///< the objective at the scale the charts have
-  double distortion = 0;  ///< E_d on the surface, under the one global scale that minimises it
-  double price = 0;       ///< lambda: marginal objective for one unit of log PE
+  double first_energy = 0;  ///< the objective at the start
+  double energy = 0;        ///< the objective at the scale the charts have
+  double distortion = 0;    ///< E_d on the surface, under the one global scale that minimises it
+  double price = 0;         ///< lambda: marginal objective for one unit of log PE
   int iterations = 0;
   /// Where the objective is lost, and what holds the charts apart: what a cut or a heat map is chosen by.
   std::vector<std::vector<double>> triangle_energy;  ///< per chart and triangle, unweighted, 1 = the wanted shape

@@ -23,6 +23,7 @@ constexpr double kFirmness = 0.2;        // stiffness of the barrier per price a
 constexpr double kSoftFirmness = 0.005;  // and at the end, when charts may come as near as the gap allows
 constexpr double kSoftening = 0.5;       // from one to the other, a step per iteration on the target
 constexpr double kOpenFirmness = 2;      // without a box: far from the optimum, a soft barrier grinds
+constexpr double kLeastSlack = 1e-3;     // a softer start would let charts press themselves against the floor
 constexpr double kFirstDamping = 1e-3;
 constexpr double kLeastDamping = 1e-6;
 
@@ -40,7 +41,7 @@ Schedule first_schedule(bool relaxing, const ScheduleView& view, double slack) {
                .damping = kFirstDamping};
   if (relaxing && view.deficit > -kNearTarget) out.firmness = kSoftFirmness;  // there already
   out.stiffness = out.firmness * least_price(relaxing, view.energy) * view.range;
-  if (relaxing) out.stiffness *= slack;
+  if (relaxing) out.stiffness *= std::max(slack, kLeastSlack);
   return out;
 }
 
@@ -73,7 +74,7 @@ bool settled(const Schedule& schedule, const ScheduleView& view, double price) {
 }
 
 bool wedged(const Schedule& schedule, double energy, double first_energy) {
-  return schedule.relaxing && energy - 1 > kMostRise * (first_energy - 1);
+  return schedule.relaxing && energy - 1 > kMostRise * std::max(first_energy - 1, kLeastPrice);
 }
 
 }  // namespace atlas_refine

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "measure/distortion.h"
@@ -39,10 +40,10 @@ bool better(const ReduceResult& a, const ReduceResult& b) {
   return a.reached ? a.energy < b.energy : a.pe > b.pe;
 }
 
-/// The next gap goes on from here, unless charts have been crushed on the way.
+/// The next gap goes on from here, unless charts were crushed on the way.
 bool usable(const ReduceResult& result) {
   constexpr double kCrushed = 1.2;
-  return result.energy < kCrushed;
+  return result.energy < kCrushed * std::max(1.0, result.first_energy);
 }
 
 std::vector<Chart> with_uvs_of(std::vector<Chart> charts, const ReduceResult& result) {
@@ -50,17 +51,37 @@ std::vector<Chart> with_uvs_of(std::vector<Chart> charts, const ReduceResult& re
   return charts;
 }
 
-const char* reason(ReduceStatus status) {
+/// Why a gap was given up.
+std::string reason(const Gap& gap, ReduceStatus status) {
+  char text[32];
+  std::snprintf(text, sizeof text, "at %g ", gap.value);
   switch (status) {
     case ReduceStatus::TooExpensive:
-      return "a larger one costs too much distortion";
+      return std::string(text) + "the last per cent of packing efficiency costs too much distortion";
     case ReduceStatus::TooDistorted:
-      return "a larger one exceeds the largest distortion allowed";
+      return std::string(text) + "the largest distortion is exceeded";
     case ReduceStatus::OutOfTime:
-      return "with a larger one the bound was not reached in time";
+      return std::string(text) + "the bound was not reached in time";
     default:
-      return "with a larger one charts jam before the bound is reached";
+      return std::string(text) + "charts jam before the bound is reached";
   }
+}
+
+/// The best result of all starts at one gap.
+ReduceResult best_at(const Gap& gap, const std::vector<std::vector<Chart>>& starts, const Objective& objective,
+                     const SqueezeOptions& options, Monitor& monitor, int& iterations, int& best) {
+  const int count = static_cast<int>(starts.size());
+  std::vector<ReduceResult> results(count);
+  const int inner = std::max(1, options.threads / count);
+  parallel_ranges(count, options.threads, 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) results[k] = reduce_from(starts[k], objective, gap, options, inner, monitor);
+  });
+  best = 0;
+  for (int k = 0; k < count; ++k) {
+    iterations += results[k].iterations;
+    if (better(results[k], results[best])) best = k;
+  }
+  return std::move(results[best]);
 }
 
 }  // namespace
@@ -73,8 +94,8 @@ std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_boun
         perimeter += (chart.uvs[loop[(k + 1) % loop.size()]] - chart.uvs[loop[k]]).norm();
     }
   }
-  const double area = uv_area(charts), height = std::sqrt(area / pe_bound / (box_aspect > 0 ? box_aspect : 1));
-  const Vec2 box(height * (box_aspect > 0 ? box_aspect : 1), height);
+  const double area = uv_area(charts);
+  const Vec2 box = sides_of_area(area / pe_bound, box_aspect);
   // Charts grown by half the gap must fit into the box grown likewise; corners add a circle's sectors at most.
   const auto leaves_room = [&](const Gap& gap) {
     const double g = gap.length(box);
@@ -92,28 +113,23 @@ std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_boun
 Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor) {
   Squeezed out;
+  std::string note = options.gaps.front().value < Gap{}.value ? "a larger one leaves the charts no room at the bound" : "";
   std::vector<std::vector<Chart>> present = starts;
-  if (options.gaps.front().value < Gap{}.value) out.gap_note = "a larger one leaves the charts no room at the bound";
   for (const Gap& gap : options.gaps) {
-    const int count = static_cast<int>(present.size());
-    std::vector<ReduceResult> results(count);
-    const int inner = std::max(1, options.threads / count);
-    parallel_ranges(count, options.threads, 1, [&](int begin, int end) {
-      for (int k = begin; k < end; ++k) results[k] = reduce_from(present[k], objective, gap, options, inner, monitor);
-    });
     int best = 0;
-    for (int k = 0; k < count; ++k) {
-      out.iterations += results[k].iterations;
-      if (better(results[k], results[best])) best = k;
-    }
-    if (&gap != &options.gaps.front()) out.gap_note = reason(out.outcome.status);
-    out.gap = gap;
-    out.outcome = std::move(results[best]);
+    ReduceResult result = best_at(gap, present, objective, options, monitor, out.iterations, best);
     const bool last = &gap == &options.gaps.back();
-    const bool dear = !last && out.outcome.reached && options.max_price > 0 && out.outcome.price > options.max_price;
-    if (dear) out.outcome.status = ReduceStatus::TooExpensive;
-    if (out.outcome.reached && out.outcome.within_limit && !dear) break;
-    present = usable(out.outcome) ? std::vector<std::vector<Chart>>{with_uvs_of(present[best], out.outcome)} : starts;
+    const bool dear = !last && result.status == ReduceStatus::TooExpensive;
+    const bool done = result.reached && result.within_limit && !dear;
+    const std::string next_note = reason(gap, result.status);
+    present = usable(result) ? std::vector<std::vector<Chart>>{with_uvs_of(present[best], result)} : starts;
+    if (&gap == &options.gaps.front() || better(result, out.outcome)) {
+      out.gap = gap;
+      out.gap_note = note;
+      out.outcome = std::move(result);
+    }
+    if (done) break;
+    note = next_note;
   }
   return out;
 }

@@ -31,6 +31,17 @@ class Journal {
   std::vector<std::string> repairs, fallbacks, warnings;
   int iterations = 0;  ///< Newton iterations, all stages
 
+  /// Where the lists end now, and back to there: what an attempt that did not lead to the result has told.
+  struct Mark {
+    std::size_t repairs, fallbacks, warnings;
+  };
+  Mark mark() const { return {repairs.size(), fallbacks.size(), warnings.size()}; }
+  void back_to(const Mark& mark) {
+    repairs.resize(mark.repairs);
+    fallbacks.resize(mark.fallbacks);
+    warnings.resize(mark.warnings);
+  }
+
   bool draws() const { return debug_ != nullptr; }
   void show(const AtlasSnapshot& picture) { debug_->receive(picture); }
   /// Hands the charts to the debug sink, where there is one.

@@ -25,8 +25,6 @@ class BlockLdlt {
   int slot(int i, int j) const;
 
   int node_count() const { return static_cast<int>(diagonal.size()); }
-  /// Blocks of the factor below its diagonal: what a factorisation costs in memory.
-  int factor_block_count() const { return static_cast<int>(factor_rows_.size()); }
 
   std::vector<Mat2> diagonal;      ///< one per node
   std::vector<Mat2> off_diagonal;  ///< one per slot: rows of the smaller node, columns of the larger
