@@ -12,8 +12,6 @@
 namespace atlas_refine {
 namespace {
 
-// An automatic gap is given up for a smaller one where one more per cent of PE costs more than this per cent of E_d itself.
-constexpr double kDearestPrice = 3;
 constexpr double kRoughly = 0.75;       // of the bound: a packing good enough to compare with
 constexpr double kRounding = 1 + 1e-6;  // storing single precision must not lose the bound
 
@@ -79,7 +77,6 @@ void squeeze_into(const Refinement& run, const std::vector<std::vector<Chart>>& 
                                .box_aspect = run.options.box_aspect,
                                .gaps = gaps,
                                .max_distortion = run.options.max_distortion.value_or(0),
-                               .max_price = kDearestPrice,
                                .threads = run.threads};
   const Objective objective = goal_of(run.input.set.charts, out.atlas, run.options);
   Squeezed best = squeeze(starts, objective, options, run.monitor);
@@ -124,17 +121,18 @@ std::optional<double> distortion_without_cuts(const Refinement& run, double most
   for (const Chart& chart : charts) {
     if (!certify_charts({chart}).valid()) return std::nullopt;
   }
-  set_density(charts, wanted_density(charts, run.options.density), run.options.density);
+  const bool scaled = set_density(charts, wanted_density(charts, run.options.density), run.options.density);
   const std::vector<Gap> gaps = gaps_of(run, charts);
-  const std::vector<Chart> placed = place(run, charts, gaps.front(), kRoughly * run.options.pe_bound);
+  // The artist's layout spares a packing.
+  const bool own = !scaled && certify_charts(charts).valid() && gap_kept(charts, gaps.front(), run.options.box_aspect);
+  const std::vector<Chart> start = own ? charts : place(run, charts, gaps.front(), kRoughly * run.options.pe_bound);
   const SqueezeOptions options{.pe_bound = run.options.pe_bound,
                                .box_aspect = run.options.box_aspect,
                                .gaps = gaps,
                                .max_distortion = most,
-                               .max_price = kDearestPrice,
                                .threads = run.threads};
   const Objective objective = goal_of(run.input.set.charts, whole_atlas(charts), run.options);
-  const Squeezed squeezed = squeeze({placed}, objective, options, run.monitor);
+  const Squeezed squeezed = squeeze({start}, objective, options, run.monitor);
   run.journal.iterations += squeezed.iterations;
   const ReduceResult& result = squeezed.outcome;
   if (!result.reached || !result.within_limit) return std::nullopt;

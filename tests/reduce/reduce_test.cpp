@@ -140,13 +140,15 @@ TEST(Reduce, StopsAtTheLargestDistortion) {
   checked(problem, result);
 }
 
-TEST(Reduce, StopsAtTheLargestPrice) {
+TEST(Reduce, StopsWhereDistortionHasRisenTooFar) {
   const std::vector<Chart> charts = s_chart();
-  const ReduceProblem problem{.charts = charts, .pe_target = 0.97, .max_price = 0.05};
+  const ReduceProblem problem{.charts = charts, .pe_target = 0.97, .max_rise = 0.01};
   const ReduceResult result = reduce_distortion(problem);
   EXPECT_EQ(result.status, ReduceStatus::TooExpensive);
   EXPECT_FALSE(result.reached);
   EXPECT_LT(result.pe, 0.97);
+  EXPECT_LE(result.least_energy, result.first_energy);
+  EXPECT_LT(result.energy, 1.05 * result.least_energy);
   checked(problem, result);
 }
 

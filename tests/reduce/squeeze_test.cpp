@@ -27,7 +27,7 @@ TEST(Squeeze, KeepsTheBetterOfTwoStarts) {
 TEST(Squeeze, ReducesTheGapOnlyAsFarAsNeeded) {
   const std::vector<Chart> charts = charts_of(shapes::squares(16, 0.4));
   Monitor monitor;
-  SqueezeOptions options{.pe_bound = 0.85, .gaps = {Gap{0.03}, Gap{0.01}, Gap{0.001}}, .max_price = 3};
+  SqueezeOptions options{.pe_bound = 0.85, .gaps = {Gap{0.03}, Gap{0.01}, Gap{0.001}}};
   const Squeezed squeezed = squeeze({charts}, make_objective(charts), options, monitor);
   EXPECT_TRUE(squeezed.outcome.reached);
   EXPECT_EQ(squeezed.gap.value, 0.01);

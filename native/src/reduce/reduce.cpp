@@ -15,8 +15,7 @@ namespace {
 constexpr double kNegligible = 1e-8;  // a change of E_d that nobody can measure
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kStallIterations = 12;
-constexpr double kCheap = 1.005;  // an objective up to which no price is too high
-constexpr double kTelling = 1;    // damping up to which the price is that of distortion
+constexpr double kTelling = 1;  // damping up to which a rise of the objective is the price of PE
 
 /// Where the iteration is.
 struct Iterate {
@@ -38,6 +37,7 @@ struct Step {
 /// Iterations in a row of one kind.
 struct Counters {
   int calm = 0, idle = 0, expensive = 0, distorted = 0;
+  double least_energy = kInfinite;
 };
 
 /// The problem with what its tests need.
@@ -74,9 +74,7 @@ void assemble(const ReduceModel& model, const ReduceState& state, double stiffne
     auto pairs = triangle_sides(model.triangles);
     const auto coupled = coupled_nodes(model, state, contacts);
     pairs.insert(pairs.end(), coupled.begin(), coupled.end());
-    // The first order serves as well: a few new contacts hardly change the fill.
-    std::vector<int> order = system.matrix.elimination_order();
-    system.matrix.analyse(model.node_count(), pairs, model.has_box ? model.box_node() : -1, std::move(order));
+    system.matrix.analyse(model.node_count(), pairs, model.has_box ? model.box_node() : -1);
     slots = triangle_slots(system.matrix, model.triangles);
   }
   system.set_zero();
@@ -171,10 +169,10 @@ Counters counted(const Task& task, const Change& change, const Iterate& at, cons
   const bool calm =
       on_target && quiet && schedule.damping <= kTelling && settled(schedule, task.view(at, schedule.margin), at.price);
   counters.calm = calm ? counters.calm + 1 : 0;
-  // A price under heavy damping tells of a collision, and while distortion still falls it tells of the start.
-  const bool telling = schedule.damping <= kTelling && change.energy > 0 && at.energy > kCheap;
-  const bool expensive = telling && at.price > problem.max_price * at.energy;
-  counters.expensive = expensive ? counters.expensive + 1 : 0;
+  counters.least_energy = std::min(counters.least_energy, at.energy);
+  // Under heavy damping distortion tells of a collision, which may come apart again.
+  const bool risen = schedule.damping <= kTelling && at.energy > (1 + problem.max_rise) * counters.least_energy;
+  counters.expensive = risen ? counters.expensive + 1 : 0;
   counters.distorted = !task.within_limit(at) && (quiet || hopeless(task, at, change)) ? counters.distorted + 1 : 0;
   const bool progress = moved > 1e-5 * (at.energy - 1) + 0.1 * kNegligible || change.pe > 1e-5 * at.pe;
   counters.idle = progress ? 0 : counters.idle + 1;
@@ -188,7 +186,7 @@ std::optional<ReduceStatus> ended(const Task& task, const Iterate& at, const Sch
   if (holds && counters.calm >= 2) return task.within_limit(at) ? ReduceStatus::Converged : ReduceStatus::TooDistorted;
   if (holds && problem.enough_distortion > 0 && at.energy <= problem.enough_distortion) return ReduceStatus::Enough;
   if (counters.distorted >= 4) return ReduceStatus::TooDistorted;
-  if (!holds && problem.max_price > 0 && counters.expensive >= 3) return ReduceStatus::TooExpensive;
+  if (!holds && problem.max_rise > 0 && counters.expensive >= 3) return ReduceStatus::TooExpensive;
   if (counters.idle >= kStallIterations || wedged(schedule, at.energy, first_energy)) return ReduceStatus::Stalled;
   return std::nullopt;
 }
@@ -261,6 +259,7 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
   }
   ReduceResult out = result_of(task, best, status, schedule.stiffness, iteration);
   out.first_energy = first_energy;
+  out.least_energy = std::min(counters.least_energy, first_energy);
   return out;
 }
 

@@ -24,7 +24,7 @@ struct ReduceProblem {
   double least_change = 2e-4;    ///< at the optimum where the objective - 1 changes by less, relative, twice in a row
   double negligible = 1e-8;      ///< or by less than this
   double max_distortion = 0;     ///< of the surface's E_d: give up the climb once it is exceeded at its least; 0 = no limit
-  double max_price = 0;  ///< give up the climb where lambda exceeds this times the objective below the target; 0 = no limit
+  double max_rise = 0;  ///< give up the climb where the objective exceeds its least so far by this factor - 1; 0 = no limit
   int max_iterations = 600;
   int threads = 1;
 };
@@ -34,7 +34,7 @@ enum class ReduceStatus {
   Enough,        ///< the target holds and the objective is at most enough_distortion
   Stalled,       ///< no further progress; `reached` tells whether the target holds
   TooDistorted,  ///< max_distortion was met before the target
-  TooExpensive,  ///< max_price was met before the target
+  TooExpensive,  ///< max_rise was met before the target
   OutOfTime,     ///< max_iterations
 };
 
@@ -56,6 +56,7 @@ struct ReduceResult {
   bool reached = false;      ///< PE of the charts' own bounding box (of the asked aspect) is at least the target
   bool within_limit = true;  ///< E_d is at most max_distortion
   double pe = 0;
+  double least_energy = 0;  ///< the least objective on the way, at whatever PE
   double first_energy = 0;  ///< the objective at the start
   double energy = 0;        ///< the objective at the scale the charts have
   double distortion = 0;    ///< E_d on the surface, under the one global scale that minimises it

@@ -14,6 +14,10 @@ namespace {
 
 constexpr double kGapStep = 0.6;
 constexpr int kGapSteps = 8;
+// With several charts a smaller gap is tried where the objective has risen by more than this on the way to the bound,
+constexpr double kNoticeable = 0.02;
+constexpr double kMostRise = 0.06;  // at once where it has risen by more than this,
+constexpr double kSpared = 0.25;    // and is kept where it spares this part of the distortion.
 
 ReduceResult reduce_from(const std::vector<Chart>& start, const Objective& objective, const Gap& gap,
                          const SqueezeOptions& options, int threads, Monitor& monitor) {
@@ -24,7 +28,7 @@ ReduceResult reduce_from(const std::vector<Chart>& start, const Objective& objec
                               .box_aspect = options.box_aspect,
                               .pe_target = options.pe_bound,
                               .max_distortion = options.max_distortion,
-                              .max_price = gap.value == options.gaps.back().value ? 0 : options.max_price,
+                              .max_rise = gap.value == options.gaps.back().value || start.size() == 1 ? 0 : kMostRise,
                               .threads = threads};
   return reduce_distortion(problem, [&](const ReduceProgress& progress) {
     if (progress.iteration == 0) first_pe = progress.pe;
@@ -51,13 +55,20 @@ std::vector<Chart> with_uvs_of(std::vector<Chart> charts, const ReduceResult& re
   return charts;
 }
 
+bool holds(const ReduceResult& result) { return result.reached && result.within_limit; }
+
+/// True where a smaller gap is worth it.
+bool spares(const ReduceResult& result, const ReduceResult& larger) {
+  return holds(result) && result.energy - 1 < (1 - kSpared) * (larger.energy - 1);
+}
+
 /// Why a gap was given up.
 std::string reason(const Gap& gap, ReduceStatus status) {
   char text[32];
   std::snprintf(text, sizeof text, "at %g ", gap.value);
   switch (status) {
     case ReduceStatus::TooExpensive:
-      return std::string(text) + "the last per cent of packing efficiency costs too much distortion";
+      return std::string(text) + "the bound costs too much distortion";
     case ReduceStatus::TooDistorted:
       return std::string(text) + "the largest distortion is exceeded";
     case ReduceStatus::OutOfTime:
@@ -118,12 +129,13 @@ Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const Objective&
   for (const Gap& gap : options.gaps) {
     int best = 0;
     ReduceResult result = best_at(gap, present, objective, options, monitor, out.iterations, best);
-    const bool last = &gap == &options.gaps.back();
-    const bool dear = !last && result.status == ReduceStatus::TooExpensive;
-    const bool done = result.reached && result.within_limit && !dear;
-    const std::string next_note = reason(gap, result.status);
+    const bool first = &gap == &options.gaps.front();
+    const bool held = !first && holds(out.outcome);
+    const bool done = holds(result) && (starts.front().size() == 1 || result.energy <= (1 + kNoticeable) * result.least_energy);
+    const std::string next_note = reason(gap, holds(result) ? ReduceStatus::TooExpensive : result.status);
     present = usable(result) ? std::vector<std::vector<Chart>>{with_uvs_of(present[best], result)} : starts;
-    if (&gap == &options.gaps.front() || better(result, out.outcome)) {
+    if (held && !spares(result, out.outcome)) break;
+    if (first || better(result, out.outcome)) {
       out.gap = gap;
       out.gap_note = note;
       out.outcome = std::move(result);

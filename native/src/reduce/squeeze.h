@@ -14,7 +14,6 @@ struct SqueezeOptions {
   double box_aspect = 0;
   std::vector<Gap> gaps;      ///< to be tried in this order: the asked one, then smaller ones where that is allowed
   double max_distortion = 0;  ///< of the surface's E_d; 0 = no limit
-  double max_price = 0;       ///< gives up a gap above this, except the last; 0 = no limit
   int threads = 1;
 };
 
@@ -30,9 +29,9 @@ struct Squeezed {
 std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_bound, double box_aspect);
 
 /// Reduces from every start (each free of flips, crossings and nearer charts than the first gap) and keeps the result of least
-/// distortion that holds the bound. Where none does at a sane price the next gap is tried, from the best state so far unless
-/// charts were crushed there; in the end the state of the highest PE is returned. Starts run in parallel; the choice is by the
-/// objective, ties by index.
+/// distortion that holds the bound. Where none does, or the bound costs much distortion with this gap, the next one is tried, and
+/// kept where it spares a good part of that distortion; in the end, where none holds the bound, the state of the highest PE is
+/// returned. Starts run in parallel; the choice is by the objective, ties by index.
 Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor);
 

@@ -28,8 +28,7 @@ __attribute__((target_clones("avx2", "default"))) void subtract_products(const i
 
 }  // namespace
 
-void BlockLdlt::analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node,
-                        std::vector<int> known_order) {
+void BlockLdlt::analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node) {
   // Bucket by the smaller node, then sort and thin out each short row.
   std::vector<int> start(node_count + 1, 0);
   for (const auto& [i, j] : edges) ++start[std::min(i, j) + 1];
@@ -50,7 +49,7 @@ void BlockLdlt::analyse(int node_count, const std::vector<std::pair<int, int>>& 
   row_nodes_.resize(kept);
   diagonal.assign(node_count, Mat2::Zero());
   off_diagonal.assign(kept, Mat2::Zero());
-  order_ = known_order.empty() ? minimum_degree_order(last_node) : std::move(known_order);
+  order_ = minimum_degree_order(last_node);
   rank_.resize(node_count);
   for (int k = 0; k < node_count; ++k) rank_[order_[k]] = k;
   permute_pattern();

@@ -13,13 +13,8 @@ namespace atlas_refine {
 class BlockLdlt {
  public:
   /// `edges` are pairs of distinct nodes in any order, duplicates allowed. `last_node` (or -1) is eliminated last: a node that is
-  /// coupled to a large part of the others would only disturb the ordering. `known_order`, an elimination_order() of an earlier
-  /// pattern on the same nodes, is taken over where it is given.
-  void analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node = -1,
-               std::vector<int> known_order = {});
-
-  /// The node eliminated as k-th.
-  const std::vector<int>& elimination_order() const { return order_; }
+  /// coupled to a large part of the others would only disturb the ordering.
+  void analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node = -1);
 
   /// Index into `off_diagonal` of the block (min(i, j), max(i, j)), -1 where the pattern has none.
   int slot(int i, int j) const;

@@ -1,0 +1,73 @@
+// The schedule's rules, one by one.
+#include "reduce/schedule.h"
+
+#include <gtest/gtest.h>
+
+namespace atlas_refine {
+namespace {
+
+ScheduleView below(double deficit) { return {.bounded = true, .deficit = deficit, .energy = 1.01, .range = 0.0025}; }
+
+TEST(Schedule, ClimbsFasterFarBelowTheTarget) {
+  EXPECT_DOUBLE_EQ(largest_climb(0.001), 0.01);
+  EXPECT_DOUBLE_EQ(largest_climb(0.1), 0.02);
+  EXPECT_DOUBLE_EQ(largest_climb(1), 0.03);
+}
+
+TEST(Schedule, SoftensFromTheTargetOnAndNotBefore) {
+  Schedule schedule = first_schedule(false, below(0.2), 1);
+  const double firm = schedule.firmness;
+  adapt(schedule, below(0.1), 0.01, 1);
+  EXPECT_EQ(schedule.firmness, firm);
+  EXPECT_FALSE(schedule.arrived);
+  adapt(schedule, below(1e-4), 0.01, 1);
+  EXPECT_LT(schedule.firmness, firm);
+  for (int k = 0; k < 20; ++k) adapt(schedule, below(0.01), 0.01, 1);  // a dip does not hold it up
+  EXPECT_TRUE(settled(schedule, below(0.01), 0.01));
+}
+
+TEST(Schedule, StiffnessFollowsThePriceByAFactorOfTwoAtMost) {
+  Schedule schedule = first_schedule(false, below(0.2), 1);
+  const double before = schedule.stiffness;
+  adapt(schedule, below(0.2), 100, 1);
+  EXPECT_DOUBLE_EQ(schedule.stiffness, 2 * before);
+  adapt(schedule, below(0.2), 0, 1);
+  EXPECT_DOUBLE_EQ(schedule.stiffness, before);
+}
+
+TEST(Schedule, DampingFollowsTheSteps) {
+  Schedule schedule = first_schedule(false, below(0.2), 1);
+  const double before = schedule.damping;
+  adapt(schedule, below(0.2), 0, 0.05);
+  EXPECT_DOUBLE_EQ(schedule.damping, 4 * before);
+  adapt(schedule, below(0.2), 0, 0.3);
+  EXPECT_DOUBLE_EQ(schedule.damping, 4 * before);
+  adapt(schedule, below(0.2), 0, 1);
+  EXPECT_DOUBLE_EQ(schedule.damping, 2 * before);
+}
+
+TEST(Schedule, APerfectStartIsNotWedgedByRounding) {
+  Schedule schedule;
+  schedule.relaxing = true;
+  EXPECT_FALSE(wedged(schedule, 1, 1 - 1e-16));
+  EXPECT_FALSE(wedged(schedule, 1.01, 1.005));
+  EXPECT_TRUE(wedged(schedule, 1.1, 1.005));
+  schedule.relaxing = false;
+  EXPECT_FALSE(wedged(schedule, 1.1, 1.005));
+}
+
+TEST(Schedule, AStartAtTheFloorIsPushedOffIt) {
+  const ScheduleView view{.bounded = true, .deficit = -0.05, .energy = 1.1, .range = 0.0025};
+  EXPECT_GT(first_schedule(true, view, 1e-9).stiffness, 1e-4 * first_schedule(true, view, 1).stiffness);
+}
+
+TEST(Schedule, TheMarginFollowsTheErrorAndIsBounded) {
+  Schedule schedule;
+  adapt_margin(schedule, 1);
+  EXPECT_DOUBLE_EQ(schedule.margin, kMostMargin);
+  adapt_margin(schedule, 0);
+  EXPECT_DOUBLE_EQ(schedule.margin, 0.5 * kMostMargin);
+}
+
+}  // namespace
+}  // namespace atlas_refine
