@@ -125,6 +125,8 @@ BAD_OPTIONS = [
     (["--aspect", "2:0"], "--aspect"),
     (["--aspect", "-2:1"], "--aspect"),
     (["--aspect", "2:1:1"], "--aspect"),
+    (["--aspect", "1:101"], "--aspect"),
+    (["--aspect", "101:1"], "--aspect"),
     (["--gap", "-0.1"], "--gap"),
     (["--gap", "0.5"], "--gap"),
     (["--gap-px", "4"], "--gap-px"),
