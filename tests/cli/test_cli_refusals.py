@@ -240,6 +240,17 @@ def test_help_and_version(program):
         assert option.encode() in program("--help").stdout
 
 
+@pytest.mark.parametrize("document", ["README.md", "docs/command_line.md"])
+def test_the_documents_list_every_option(program, document):
+    helps = b"".join(program(*arguments).stdout for arguments in (["--help"], ["measure", "--help"])).decode()
+    known = set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", helps, re.MULTILINE))
+    assert {"--help", "--output", "--relax", "--json"} <= known
+    cells = re.findall(r"^\| (`-.*?) \| ", (REPOSITORY / document).read_text(), re.MULTILINE)
+    listed = {name for cell in cells for name in re.findall(r"(?<![\w-])--[a-z-]+", cell)}
+    everywhere = {"--help", "--version", "--json", "--output"}  # README: on the line above the table or as -o
+    assert listed | (everywhere if document == "README.md" else set()) == known
+
+
 def test_every_exit_code_is_in_the_documents():
     code = re.compile(r"\bexit_\w+ = (\d+)")
     cli = REPOSITORY / "native" / "cli"
