@@ -72,7 +72,7 @@ def other_properties():
             name="Density",
             description="Relative texel density of the charts",
             items=[
-                ("KEEP", "Keep", "Each chart keeps the relative scale it has"),
+                ("KEEP", "Keep", "Each chart keeps the relative scale it has, as far as bending leaves it that"),
                 ("EQUAL", "Equal", "One texel density for the whole surface"),
             ],
             default=Options.density,
@@ -81,7 +81,7 @@ def other_properties():
             name="Gap",
             description="Smallest distance between two charts",
             items=[
-                ("AUTO", "Automatic", "0.25 % of the box's diagonal, less where the bound needs it"),
+                ("AUTO", "Automatic", "0.25 % of the box's diagonal, less where charts jam or distort too much"),
                 ("PIXELS", "Pixels", "So many pixels at a texture size, whatever it takes"),
             ],
             default=Options.gap,
@@ -104,7 +104,7 @@ def other_properties():
         "seed": IntProperty(name="Seed", description="The same seed gives the same result", default=Options.seed, min=0),
         "best_effort": BoolProperty(
             name="Best Effort",
-            description="Where the bound cannot be reached, take the best valid UV map that was found",
+            description="Where the bound is not reached, take the best valid UV map that was found",
             default=Options.best_effort,
         ),
     }

@@ -318,7 +318,7 @@ TEST(Refine, OptionsOutOfRangeAreRefused) {
   const double nan = std::nan("");
   std::vector<RefineOptions> wrong;
   for (const double bound : {0.0, 1.0, 1.2, -0.5, nan}) wrong.push_back({.pe_bound = bound});
-  for (const double aspect : {-1.0, 1e-4, 1e4, nan}) wrong.push_back({.box_aspect = aspect});
+  for (const double aspect : {-1.0, 0.0099, 101.0, HUGE_VAL, nan}) wrong.push_back({.box_aspect = aspect});
   for (const double gap : {-0.1, 0.2, nan}) wrong.push_back({.gap = Gap{gap}});
   for (const double limit : {0.9, HUGE_VAL, nan}) wrong.push_back({.max_distortion = limit});
   for (const int threads : {-1, 5000}) wrong.push_back({.threads = threads});
@@ -326,6 +326,10 @@ TEST(Refine, OptionsOutOfRangeAreRefused) {
     EXPECT_EQ(testing::refusal(atlas, options).code(), ErrorCode::BadOption);
     EXPECT_EQ(testing::refusal(atlas, options).stage(), "options");
   }
+}
+
+TEST(Refine, TheSlimmestTexturesAreTaken) {
+  for (const double aspect : {0.01, 100.0}) refine_soundly(shapes::quad_grid(2, 2), {.pe_bound = 0.005, .box_aspect = aspect});
 }
 
 TEST(Refine, ProgressRisesAndStopsTheWork) {

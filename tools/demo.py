@@ -1,6 +1,6 @@
 """The demo: a subdivided Suzanne in headless Blender, unwrapped by Blender, brought to PE 0.80 by the add-on's operator.
 
-usage: demo.py OUT_DIR     writes before.png, after.png, tighter.png (0.90), squeezed.png and cut.png (the two roads), before.obj,
+usage: demo.py OUT_DIR     writes before.png, after.png, tighter.png (0.90), squeezed.png and cut.png (the two roads in a square), before.obj,
                            after.obj, suzanne.blend and table.txt
 """
 
@@ -51,8 +51,8 @@ def main(out_dir):
     draw(out, "before", "before", "Blender's unwrap", "--pe-bound", "0.01")
     draw(out, "after", "after", "refined to 0.80", "--pe-bound", "0.01")
     draw(out, "before", "tighter", "refined to 0.90", "--pe-bound", "0.90")
-    draw(out, "before", "squeezed", "squeezed to 0.80", "--pe-bound", "0.80")
-    draw(out, "before", "cut", "cut into rectangles, 0.80", "--pe-bound", "0.80", "--seams", "rectangles")
+    draw(out, "before", "squeezed", "squeezed to 0.80", "--pe-bound", "0.80", "--aspect", "square")
+    draw(out, "before", "cut", "cut into rectangles", "--pe-bound", "0.80", "--aspect", "square", "--seams", "rectangles")
     print((out / "table.txt").read_text())
     for file in ("before.png", "after.png", "tighter.png", "squeezed.png", "cut.png", "suzanne.blend", "table.txt"):
         print(out / file)

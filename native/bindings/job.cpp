@@ -108,7 +108,7 @@ void bind_job(py::module_& module) {
   using ReleaseGil = py::call_guard<py::gil_scoped_release>;
   py::class_<Job>(module, "Job", py::module_local(), "A refine() that runs in the background; made by start().")
       .def_property_readonly("done", &Job::done, "True once result() returns at once.")
-      .def_property_readonly("progress", &Job::progress, "The latest Progress.")
+      .def_property_readonly("progress", &Job::progress, "The latest Progress; its stage is \"done\" once there is a result.")
       .def("cancel", &Job::cancel, "Asks the job to stop; returns at once, the job ends within half a second.")
       .def(
           "wait", [](const Job& job, std::optional<double> timeout) { return job.wait(timeout ? std::max(*timeout, 0.0) : -1); },

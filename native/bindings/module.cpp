@@ -34,21 +34,27 @@ constexpr const char* kRefineOptionsDoc = R"(
 pe_bound         packing efficiency to reach, in (0, 1); default 0.8
 seams            "none" (default): charts bend, no seam is added; "rectangles": charts become axis-aligned and are cut into
                  rectangles (Liu et al. 2019), result.cut is the mesh that corner_uvs belong to
-box_aspect       width / height of the texture that [0, 1]^2 stands for; 0 (default) = a free box, 1 = square. All lengths are taken
-                 with u stretched by it
-gap              smallest distance between charts as a fraction of gap_unit, hard; None (default) = automatic: 0.0025 of the
-                 diagonal, reduced only as far as the bound needs
+box_aspect       width / height of the texture that [0, 1]^2 stands for, in [0.01, 100]; 0 (default) = a free box, 1 = square.
+                 All lengths are taken with u stretched by it
+gap              smallest distance between charts as a fraction of gap_unit, hard; None (default) = automatic: the largest of
+                 0.0025 of the diagonal and smaller ones, each 0.6 of the one before, with which the bound is reached and its
+                 last per cent costs at most 3 % of E_d; result.warnings tells why larger ones were given up
 gap_unit         "diagonal" of the box (default) or its "long_side" (N texels of a texture of S: N / S)
-max_distortion   largest E_d allowed (1 = isometric), or None
-relax            where less would hold the bound, go on to the least distortion under it; default False
-best_effort      return the best valid atlas where the bound is not reached (bound_met says so); default False
-density          "equal" (default): one scale for all charts; "keep": each chart keeps its own
+max_distortion   largest E_d allowed, on the surface (1 = isometric), or None; missed it raises, with best_effort too
+relax            where less would hold the bound, go on to the least distortion under it; default False. "rectangles" do so
+                 anyway, unless until_input
+best_effort      where the bound is not reached return the best valid atlas within max_distortion (bound_met says so);
+                 default False
+density          "equal" (default): one scale for all charts; "keep": each chart its own, as far as bending leaves it that; a
+                 warning names those whose texel density changed by more than 10 %
 sigma            of "rectangles": width of the boundary smoothing as a part of a chart's boundary, in (0, 0.1]; default 0.004
 candidates       of "rectangles": layouts that are packed and scored, at least 1; default 500
 omega            of "rectangles": what added boundary costs against packing efficiency, in [0, 1]; default 0.1
-until_input      of "rectangles": stop where E_d is back at the input's (the paper), instead of at the optimum under the bound; default False
-reference        what E_d is measured against while it is reduced: "surface" (default) or "input", its UVs
-importance       (F,) numbers > 0: each face's weight in E_d; None (default) = all 1
+until_input      of "rectangles": stop where the objective is back at the input's (the paper), instead of at its optimum under the
+                 bound; default False
+reference        the shapes that the objective asks faces to keep: "surface" (default) or "input", its UVs; E_d is told and
+                 limited on the surface either way
+importance       (F,) numbers > 0: each face's weight in the objective, only ratios count; None (default) = all 1
 stored           "double" (default) or "float32": the format you will store; the certificate holds for it
 seed             default 1; the same seed gives the same bits on any number of threads
 threads          0 (default) = as many as the machine has

@@ -53,6 +53,8 @@ double aspect(const Value& value) {
   return ratio;
 }
 
+constexpr const char* aspect_help =
+    "Shape of the box PE is measured in; W:H, from 1:100 to 100:1: a texture of W:H, whose UVs fill the unit square [free]";
 constexpr double largest_gap = 0.1;  // of the unit: RefineOptions::gap
 
 /// What is read before it is settled.
@@ -101,26 +103,30 @@ void add_goal(CLI::App& app, RefineOptions& options) {
         if (v.text != "none" && v.text != "rectangles") v.refuse("must be 'none' or 'rectangles'");
         options.seams = v.text == "none" ? Seams::None : Seams::Rectangles;
       });
-  add(app, "--aspect", "free|square|W:H", "Shape of the box PE is measured in [free]",
-      [&](const Value& v) { options.box_aspect = aspect(v); });
-  add_flag(app, "--relax", options.relax, "Where less would hold the bound, go on to the least distortion under it");
-  add_flag(app, "--best-effort", options.best_effort, "Write the best valid atlas found even if it misses the bound");
-  add(app, "--density", "equal|keep", "One scale for all charts, or each chart's own as in IN [equal]", [&](const Value& v) {
-    if (v.text != "equal" && v.text != "keep") v.refuse("must be 'equal' or 'keep'");
-    options.density = v.text == "keep" ? Density::Keep : Density::Equal;
-  });
+  add(app, "--aspect", "free|square|W:H", aspect_help, [&](const Value& v) { options.box_aspect = aspect(v); });
+  add_flag(
+      app, "--relax", options.relax,
+      "Where less would hold the bound, go on to the least distortion under it; rectangles do so anyway, unless --until-input");
+  add_flag(app, "--best-effort", options.best_effort,
+           "Where the bound is missed write the best valid atlas found; --max-distortion is kept all the same");
+  add(app, "--density", "equal|keep",
+      "One scale for all charts, or each chart's own as in IN as far as bending leaves it that [equal]", [&](const Value& v) {
+        if (v.text != "equal" && v.text != "keep") v.refuse("must be 'equal' or 'keep'");
+        options.density = v.text == "keep" ? Density::Keep : Density::Equal;
+      });
 }
 
 void add_distortion(CLI::App& app, CommandLine& line) {
   RefineOptions& options = line.options;
-  add(app, "--max-distortion", "E_d", "Largest distortion E_d allowed, 1 = isometric [no limit]",
+  add(app, "--max-distortion", "E_d", "Largest distortion E_d on the surface allowed, 1 = isometric [no limit]",
       [&](const Value& v) { options.max_distortion = v.number_in(1, HUGE_VAL, false, "a number of at least 1"); });
-  add(app, "--reference", "surface|input", "What distortion is reduced against: the surface, or the UVs of IN [surface]",
-      [&](const Value& v) {
+  add(app, "--reference", "surface|input",
+      "The shapes that faces are to keep: those on the surface, or in the UVs of IN [surface]", [&](const Value& v) {
         if (v.text != "surface" && v.text != "input") v.refuse("must be 'surface' or 'input'");
         options.reference = v.text == "input" ? Reference::Input : Reference::Surface;
       });
-  add(app, "--importance", "FILE", "One positive number for each face of IN, in its order: what the face counts in E_d [all 1]",
+  add(app, "--importance", "FILE",
+      "One positive number for each face of IN, in its order: what the face counts while distortion is reduced [all 1]",
       [&](const Value& v) { line.importance = v.text; });
 }
 
@@ -150,7 +156,8 @@ void add_rectangles(CLI::App& app, Draft& draft) {
 
 void add_gap(CLI::App& app, Draft& draft) {
   add(app, "--gap", "FRACTION",
-      "Guaranteed smallest distance between charts / diagonal of the box [0.0025, reduced only as far as the bound needs]",
+      "Guaranteed smallest distance between charts / diagonal of the box [the largest of 0.0025, 0.6 of it, 0.6 of that ... with "
+      "which the bound is reached at a sane price]",
       [&](const Value& v) {
         const double value = v.number_in(0, largest_gap, false, "a number from 0 to 0.1");
         draft.line.options.gap = Gap{value, Gap::Unit::BoxDiagonal};
@@ -177,8 +184,7 @@ void add_running(CLI::App& app, RefineOptions& options) {
 const CLI::App* add_measure(CLI::App& app, CommandLine& line) {
   CLI::App* measure = app.add_subcommand("measure", "Print the measures of FILE and whether its atlas is valid; changes nothing");
   add(*measure, "FILE", "", "The atlas: an OBJ file with UVs", [&](const Value& v) { line.inputs = {v.text}; });
-  add(*measure, "--aspect", "free|square|W:H", "Shape of the box PE is measured in [free]",
-      [&](const Value& v) { line.options.box_aspect = aspect(v); });
+  add(*measure, "--aspect", "free|square|W:H", aspect_help, [&](const Value& v) { line.options.box_aspect = aspect(v); });
   add_flag(*measure, "--json", line.json, "Print JSON instead of a table");
   return measure;
 }
@@ -249,7 +255,7 @@ constexpr const char* exit_codes =
     "  1    internal error, or measure found the atlas invalid\n"
     "  2    usage: an option, or a place that cannot be written\n"
     "  3    input cannot be used\n"
-    "  4    bound not reached\n"
+    "  4    bound not reached, --max-distortion missed, or no result held the exact test\n"
     "  130  Ctrl-C";
 
 }  // namespace

@@ -49,6 +49,13 @@ TEST(CommandLine, OptionsArrive) {
   EXPECT_EQ(line.options.seed, 9);
 }
 
+TEST(CommandLine, TheAspectHasEnds) {
+  EXPECT_EQ(parsed({"measure", "a.obj", "--aspect", "1:100"}).options.box_aspect, 0.01);
+  EXPECT_EQ(parsed({"measure", "a.obj", "--aspect", "100:1"}).options.box_aspect, 100);
+  EXPECT_EQ(refusal({"measure", "a.obj", "--aspect", "100.1:1"}), "--aspect: must lie between 1:100 and 100:1, not '100.1:1'");
+  EXPECT_EQ(refusal({"measure", "a.obj", "--aspect", "1:100.1"}), "--aspect: must lie between 1:100 and 100:1, not '1:100.1'");
+}
+
 TEST(CommandLine, WhatOnlyRectanglesReadNeedsThem) {
   EXPECT_EQ(refusal({"a.obj", "-o", "b.obj", "--until-input"}), "--until-input: needs --seams rectangles");
   EXPECT_EQ(refusal({"a.obj", "-o", "b.obj", "--until-input", "--sigma", "0.01"}), "--sigma: needs --seams rectangles");

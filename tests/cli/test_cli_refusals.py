@@ -125,6 +125,8 @@ BAD_OPTIONS = [
     (["--aspect", "2:0"], "--aspect"),
     (["--aspect", "-2:1"], "--aspect"),
     (["--aspect", "2:1:1"], "--aspect"),
+    (["--aspect", "1:101"], "--aspect"),
+    (["--aspect", "101:1"], "--aspect"),
     (["--gap", "-0.1"], "--gap"),
     (["--gap", "0.5"], "--gap"),
     (["--gap-px", "4"], "--gap-px"),
@@ -236,6 +238,17 @@ def test_help_and_version(program):
         *CUT_OPTIONS,
     ):
         assert option.encode() in program("--help").stdout
+
+
+@pytest.mark.parametrize("document", ["README.md", "docs/command_line.md"])
+def test_the_documents_list_every_option(program, document):
+    helps = b"".join(program(*arguments).stdout for arguments in (["--help"], ["measure", "--help"])).decode()
+    known = set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", helps, re.MULTILINE))
+    assert {"--help", "--output", "--relax", "--json"} <= known
+    cells = re.findall(r"^\| (`-.*?) \| ", (REPOSITORY / document).read_text(), re.MULTILINE)
+    listed = {name for cell in cells for name in re.findall(r"(?<![\w-])--[a-z-]+", cell)}
+    everywhere = {"--help", "--version", "--json", "--output"}  # README: on the line above the table or as -o
+    assert listed | (everywhere if document == "README.md" else set()) == known
 
 
 def test_every_exit_code_is_in_the_documents():

@@ -30,6 +30,19 @@ TEST(Measures, AFlatSquare) {
   EXPECT_EQ(m.gap_between, std::numeric_limits<double>::infinity());
 }
 
+TEST(Measures, TheAspectLiesBetweenOneToAHundredAndAHundredToOne) {
+  EXPECT_NEAR(measure(unit_square(), 100).pe_fixed_aspect, 1, 1e-12);  // it fills the texture, whatever its aspect
+  EXPECT_NEAR(measure(unit_square(), 0.01).pe_fixed_aspect, 1, 1e-12);
+  for (const double aspect : {-1.0, 0.0099, 101.0, HUGE_VAL, std::nan("")}) {
+    try {
+      measure(unit_square(), aspect);
+      ADD_FAILURE() << aspect << " was taken";
+    } catch (const RefineError& error) {
+      EXPECT_EQ(error.code(), ErrorCode::BadOption) << error.what();
+    }
+  }
+}
+
 TEST(Measures, StretchAlongOneAxis) {
   Atlas atlas = unit_square();
   for (Vec2& uv : atlas.corner_uvs) uv.x() *= 4;

@@ -42,6 +42,8 @@ def test_a_bound_out_of_range(pe_bound):
         {"gap": float("nan")},
         {"max_distortion": 0.5},
         {"box_aspect": -1.0},
+        {"box_aspect": 0.0099},
+        {"box_aspect": 101.0},
         {"box_aspect": float("inf")},
         {"threads": -1},
         {"density": "even"},

@@ -24,6 +24,12 @@ def test_a_fixed_aspect_has_a_box_of_its_own():
     assert atlas_refine.measure(*arrays).pe_fixed_aspect == pytest.approx(1.0)
 
 
+@pytest.mark.parametrize("aspect", [-1.0, 0.0099, 101.0, float("inf"), float("nan")])
+def test_an_aspect_out_of_range_is_refused(aspect):
+    with pytest.raises(atlas_refine.AtlasRefineError, match=r"aspect must be 0 \(free\) or lie in \[0.01, 100\]"):
+        atlas_refine.measure(*shapes.tight(), box_aspect=aspect)
+
+
 def test_two_squares_and_the_gap_between_them():
     arrays = shapes.join(shapes.grid(3, 3), shapes.grid(3, 3, origin=(4.0, 0.0)))
     measures = atlas_refine.measure(*arrays)

@@ -21,6 +21,7 @@ class AtlasRefineError(RuntimeError):
 class Progress:
     @property
     def stage(self) -> str: ...
+    # input, embed, align, layout, reduce, pack, squeeze, certify, compare; of a Job that has a result: done
     @property
     def fraction(self) -> float: ...  # of the whole call, in [0, 1], never decreasing
     @property
@@ -98,7 +99,7 @@ class ChartReport:
     @property
     def mirrored(self) -> bool: ...  # was turned over
     @property
-    def re_embedded(self) -> bool: ...  # overlapped itself and was embedded anew
+    def re_embedded(self) -> bool: ...  # overlapped or touched itself and was embedded anew
     @property
     def distortion_before(self) -> float: ...  # E_d of the chart alone at its own best scale
     @property
@@ -169,11 +170,11 @@ class RefineResult:
     @property
     def corner_uvs(self) -> NDArray[np.float64]: ...  # (C, 2) of `cut` or, without it, of the input; a new array
     @property
-    def cut(self) -> CutMesh | None: ...  # None where no face was divided
+    def cut(self) -> CutMesh | None: ...  # None where neither faces were divided nor seams added
     @property
     def intervention(self) -> Literal["unchanged", "moved", "squeezed", "cut"]: ...
     @property
-    def bound_met(self) -> bool: ...  # False only with best_effort
+    def bound_met(self) -> bool: ...  # False only with best_effort, where PE is below the bound
     @property
     def before(self) -> Measures: ...
     @property
@@ -181,7 +182,7 @@ class RefineResult:
     @property
     def gap(self) -> Gap: ...  # guaranteed in the result
     @property
-    def price(self) -> float: ...  # marginal E_d for one unit of log PE at the bound
+    def price(self) -> float: ...  # marginal objective for one unit of log PE at the bound
     @property
     def iterations(self) -> int: ...  # Newton iterations, all stages
     @property
@@ -199,7 +200,7 @@ class RefineResult:
     @property
     def warnings(self) -> list[str]: ...
     @property
-    def timings(self) -> dict[str, float]: ...  # seconds per stage
+    def timings(self) -> dict[str, float]: ...  # seconds per stage; where one came twice, after a fallback, of the last
     def as_dict(self) -> dict[str, Any]: ...
 
 class Job:

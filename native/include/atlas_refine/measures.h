@@ -42,11 +42,11 @@ struct Validity {
 
 /// Measures an atlas as it is. `box_aspect` is width / height of the texture that [0, 1]^2 stands for, 0 = free: with W:H all
 /// lengths are taken with u stretched by W / H; box_width and box_height stay in UV units.
-/// Throws RefineError(BadInput) for arrays that do not fit together or hold NaN.
+/// Throws RefineError(BadInput) for arrays that do not fit together or hold NaN, BadOption for an aspect outside [0.01, 100].
 Measures measure(const Atlas& atlas, double box_aspect = 0);
 
 /// Exact certificate (Shewchuk-style filtered predicates) on the values as given: every UV triangle strictly positive and
-/// no two boundary edges crossing or touching. Throws like `measure`.
+/// no two boundary edges crossing or touching. Throws RefineError(BadInput) like `measure`.
 Validity validate(const Atlas& atlas);
 
 }  // namespace atlas_refine

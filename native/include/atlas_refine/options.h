@@ -13,11 +13,13 @@ namespace atlas_refine {
 /// paper's road; charts become axis-aligned and are cut into rectangles along motorcycle trails (sections 3.1 and 3.2).
 enum class Seams { None, Rectangles };
 
-/// What E_d is measured against while it is reduced (section 3.4, "Distortion type"): the surface, or the input's UVs.
+/// The shapes that the objective asks triangles to keep (section 3.4, "Distortion type"): the surface's, or those of the input's
+/// UVs. Only what is minimised changes: Measures::distortion and max_distortion are E_d on the surface either way.
 enum class Reference { Surface, Input };
 
 /// Which relative scale the charts get. Equal: one texel density for the whole surface, as eq. (9) measures E_d.
-/// Keep: each chart keeps the scale it has in the input.
+/// Keep: the objective asks each chart to keep the scale it has in the input. Charts that bend may change it all the same; a
+/// warning names those whose texel density changed by more than 10 %.
 enum class Density { Equal, Keep };
 
 /// The number format the caller will store; the certificate is made on values rounded to it.
@@ -38,23 +40,30 @@ struct RectangleOptions {
   double sigma = 0.004;  ///< eq. (3): width of the boundary smoothing / length of the chart's boundary, in (0, 0.1]
   int candidates = 500;  ///< layouts that are packed and scored, N_motor of section 3.2, in [1, 1000000]
   double omega = 0.1;    ///< eq. (11): what boundary length costs against PE, in [0, 1]
-  bool until_input =
-      false;  ///< stop as soon as E_d is back at the input's, as the paper does; else go on until the bound stops it
+  /// Stop once the objective is back at the input's, as the paper does; else go on until the bound stops it.
+  bool until_input = false;
 };
 
 struct RefineOptions {
-  double pe_bound = 0.80;  ///< in (0, 1); reached or the call throws BoundNotReached
+  double pe_bound = 0.80;  ///< in (0, 1); reached, or the call throws BoundNotReached unless best_effort
   Seams seams = Seams::None;
-  double box_aspect = 0;   ///< width / height of the texture, which [0, 1]^2 stands for; 0 = a free box, 1 = square
-  std::optional<Gap> gap;  ///< hard where given; else 0.0025 of the diagonal, reduced only as far as the bound needs
-  std::optional<double> max_distortion;  ///< largest E_d allowed, >= 1
-  bool relax = false;                    ///< go on to the least distortion under the bound where less would already hold it
-  bool best_effort = false;              ///< return the best valid atlas found instead of throwing BoundNotReached
+  double box_aspect = 0;  ///< width / height of the texture that [0, 1]^2 stands for, in [0.01, 100]; 0 = a free box
+  /// Hard where given. Else automatic: the largest of 0.0025 of the diagonal and smaller ones, each 0.6 of the one before, with
+  /// which the bound is reached at a sane price: the last per cent of PE costs at most 3 % of the objective (charts that are cut:
+  /// with which the rectangles pack to the bound). Where none has, the best result of all is kept. A warning says why larger ones
+  /// were given up. An atlas that is left as it is keeps its own.
+  std::optional<Gap> gap;
+  std::optional<double> max_distortion;  ///< largest E_d allowed, >= 1; above it the call throws, with best_effort too
+  /// Go on to the least of the objective under the bound where less would already hold it. Rectangles do so anyway, unless
+  /// until_input.
+  bool relax = false;
+  bool best_effort = false;  ///< where the bound is not reached return the best valid atlas within max_distortion, do not throw
   Density density = Density::Equal;
   Stored stored = Stored::Double;
   RectangleOptions rectangles;
   Reference reference = Reference::Surface;
-  std::vector<double> importance;  ///< one weight > 0 per face for its part in E_d (section 4, "Local control"); empty = all 1
+  /// One weight > 0 per face for its part in the objective (section 4, "Local control"); empty = all 1. Only ratios count.
+  std::vector<double> importance;
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0 = as many as the machine has; the result does not depend on it
 };

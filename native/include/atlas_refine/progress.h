@@ -7,7 +7,7 @@
 namespace atlas_refine {
 
 struct Progress {
-  std::string stage;  ///< "input", "embed", "align", "layout", "reduce", "pack", "squeeze", "certify"
+  std::string stage;  ///< "input", "embed", "align", "layout", "reduce", "pack", "squeeze", "certify", "compare"
   double fraction;    ///< of the whole call, in [0, 1], never decreasing
   double pe;          ///< packing efficiency of the present state, 0 where unknown
 };

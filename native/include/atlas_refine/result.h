@@ -11,16 +11,18 @@
 
 namespace atlas_refine {
 
-/// What had to be done: with Seams::None the least of the first three that holds the bound. With Seams::Rectangles charts are
-/// cut, unless the atlas holds the bound already or its rectangles need no cut: then it is one of the first three.
+/// What was done. With Seams::None the least of the first three that holds the bound; with `relax` charts are squeezed, unless
+/// the input is at the bound and no less distorted atlas was found. With Seams::Rectangles charts are cut, unless the input is
+/// at the bound (as before), no chart needs a cut (a warning says so), or the cuts came to nothing (a fallback says why): then it
+/// is one of the first three.
 enum class Intervention { Unchanged, Moved, Squeezed, Cut };
 const char* to_string(Intervention intervention);
 
 /// Why the last optimisation ended.
 enum class Ended {
   NotRun,           ///< charts were left as they are or only moved
-  AtOptimum,        ///< E_d is at its optimum under the bound
-  Enough,           ///< E_d is back at the input's: the paper's stop
+  AtOptimum,        ///< the objective is at its optimum under the bound
+  Enough,           ///< the objective is back at the input's: the paper's stop
   Stalled,          ///< no further progress: there may be a better result
   OutOfIterations,  ///< likewise
   DistortionLimit,  ///< the bound is out of reach within max_distortion
@@ -33,7 +35,7 @@ struct ChartReport {
   int faces = 0;
   double area = 0;               ///< on the surface, model units squared
   bool mirrored = false;         ///< was turned over
-  bool re_embedded = false;      ///< overlapped itself and was embedded anew
+  bool re_embedded = false;      ///< overlapped or touched itself and was embedded anew
   double distortion_before = 0;  ///< E_d of the chart alone at its own best scale
   double distortion_after = 0;
   double stretch_max = 0;  ///< largest stretch max(s1, 1 / s2) after, at the atlas' global scale
@@ -78,8 +80,8 @@ struct CutMesh {
   std::vector<int> face_offsets;     ///< as Atlas::face_offsets
   std::vector<int> corner_vertices;  ///< as Atlas::corner_vertices; input vertices, then new ones
   std::vector<int> face_sources;     ///< one per face: the input face it is part of
-  /// One per corner: the input corners, all of the face that its face is part of, whose weighted mean the corner is. A corner
-  /// that was one of the input's has it three times, with the weights 1, 0, 0.
+  /// One per corner: the input corners, all of the face that its face is part of, whose weighted mean the corner is; sources
+  /// of weight 0 repeat the heaviest. A corner that was one of the input's has it three times, with the weights 1, 0, 0.
   std::vector<std::array<int, 3>> corner_sources;
   std::vector<Vec3> corner_weights;           ///< >= 0, sum 1
   std::vector<NewVertex> new_vertices;        ///< vertex k of them has the index (input vertices + k)
@@ -90,11 +92,11 @@ struct RefineResult {
   std::vector<Vec2> corner_uvs;  ///< one per corner of `cut` or, without it, of the input; its own, bit for bit, where Unchanged
   std::optional<CutMesh> cut;    ///< where faces were divided or added seams run: never with Seams::None
   Intervention intervention = Intervention::Unchanged;
-  bool bound_met = false;  ///< false only with best_effort
+  bool bound_met = false;  ///< false only with best_effort, where PE is below the bound; max_distortion holds in every result
   Measures before;
   Measures after;
   Gap gap;             ///< the gap that is guaranteed in the result
-  double price = 0;    ///< lambda: marginal E_d for one unit of log PE at the bound; 0 where it does not bind
+  double price = 0;    ///< lambda: marginal objective for one unit of log PE at the bound; 0 where it does not bind
   int iterations = 0;  ///< Newton iterations, all stages
   Ended ended = Ended::NotRun;
   std::vector<ChartReport> charts;  ///< one per chart of the input
@@ -102,8 +104,8 @@ struct RefineResult {
   std::optional<RectangleReport> rectangles;
   std::vector<std::string> repairs;    ///< one line each: what was mended and where
   std::vector<std::string> fallbacks;  ///< one line each: what was tried first, and what was done instead
-  std::vector<std::string> warnings;
-  std::vector<StageTime> timings;
+  std::vector<std::string> warnings;   ///< one line each: what a user should know of the result
+  std::vector<StageTime> timings;      ///< in order; after a fallback a stage may come twice
 };
 
 }  // namespace atlas_refine

@@ -64,7 +64,7 @@ struct ReduceResult {
   int iterations = 0;
   /// Where the objective is lost, and what holds the charts apart: what a cut or a heat map is chosen by.
   std::vector<std::vector<double>> triangle_energy;  ///< per chart and triangle, unweighted, 1 = the wanted shape
-  std::vector<std::vector<Vec2>> contact_forces;     ///< per chart and vertex; objective per length of the surface's square root
+  std::vector<std::vector<Vec2>> contact_forces;     ///< per chart and vertex: objective / length, in units of sqrt(surface area)
 };
 
 /// Minimises objective + barrier subject to log PE >= log target by projected Newton with one multiplier. From above the target

@@ -4,6 +4,7 @@
 #include "atlas_refine/error.h"
 #include "measure/certificate.h"
 #include "measure/metrics.h"
+#include "report/options.h"
 
 namespace atlas_refine {
 
@@ -21,8 +22,7 @@ double bounding_box_diagonal(const Atlas& atlas) {
 }  // namespace
 
 Measures measure(const Atlas& atlas, double box_aspect) {
-  if (!(box_aspect >= 0) || box_aspect > 1e6)
-    throw RefineError(ErrorCode::BadOption, "measure", "box aspect must be 0 (free) or positive");
+  check_aspect(box_aspect);
   return read_atlas(atlas, box_aspect).measures;
 }
 

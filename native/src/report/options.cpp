@@ -20,10 +20,13 @@ void check_importance(const Atlas& atlas, const std::vector<double>& importance)
 
 }  // namespace
 
+void check_aspect(double box_aspect) {
+  require(box_aspect == 0 || (box_aspect >= 0.01 && box_aspect <= 100), "the box aspect must be 0 (free) or lie in [0.01, 100]");
+}
+
 void check_options(const Atlas& atlas, const RefineOptions& options) {
   require(options.pe_bound > 0 && options.pe_bound < 1, "the packing efficiency bound must lie between 0 and 1, both excluded");
-  require(options.box_aspect == 0 || (options.box_aspect >= 1e-3 && options.box_aspect <= 1e3),
-          "the box aspect must be 0 (free) or lie in [0.001, 1000]");
+  check_aspect(options.box_aspect);
   require(!options.gap || (options.gap->value >= 0 && options.gap->value <= 0.1), "the gap must lie in [0, 0.1] of the box");
   require(!options.max_distortion || (*options.max_distortion >= 1 && std::isfinite(*options.max_distortion)),
           "the largest distortion must be a finite number of at least 1");

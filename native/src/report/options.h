@@ -6,7 +6,8 @@
 
 namespace atlas_refine {
 
-/// Throws RefineError(BadOption) naming the option and its range.
+/// These throw RefineError(BadOption) naming the option and its range.
+void check_aspect(double box_aspect);
 void check_options(const Atlas& atlas, const RefineOptions& options);
 
 }  // namespace atlas_refine
