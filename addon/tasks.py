@@ -58,6 +58,7 @@ class Task:
         if self.uneven_scale:
             yield "the object's scale is uneven; the UVs follow the mesh without it"
         yield from result.repairs
+        yield from result.fallbacks
         yield from result.warnings
 
 

@@ -216,6 +216,7 @@ TEST(Limits, DensitiesOfTheInputDoNotSpoilTheRoadThatCuts) {
     options.rectangles.until_input = until_input;
     const RefineResult one = refine(both(1), options), two = refine(both(5), options);
     EXPECT_LE(two.after.distortion, one.after.distortion + 2e-3);
+    EXPECT_EQ(two.ended, until_input ? Ended::Enough : Ended::AtOptimum);
   }
 }
 

@@ -122,6 +122,8 @@ int cut_without_distortion(const Atlas& atlas) {
   const RefineResult result = refine(atlas, options);
   EXPECT_EQ(result.intervention, Intervention::Cut);
   EXPECT_LT(result.after.distortion, 1 + 1e-6);
+  EXPECT_EQ(result.ended, Ended::AtOptimum);
+  EXPECT_TRUE(result.warnings.empty());
   EXPECT_LT(result.after.stretch_max, 1 + 1e-3);
   EXPECT_GE(result.after.pe, options.pe_bound);
   if (!result.rectangles) {

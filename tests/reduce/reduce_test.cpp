@@ -126,6 +126,26 @@ TEST(Reduce, PriceIsTheSlopeOfEnergyOverLogPe) {
   EXPECT_NEAR(0.5 * (low.price + high.price), slope, 0.25 * slope);
 }
 
+TEST(Reduce, TellsWhereTheObjectiveIsLostAndWhatPushes) {
+  const std::vector<Chart> charts = charts_of(shapes::two_squares(0.3));
+  const ReduceResult result = reduce_distortion({.charts = charts, .gap = Gap{0.02}, .pe_target = 0.97});
+  ASSERT_EQ(result.triangle_energy.size(), charts.size());
+  ASSERT_EQ(result.contact_forces.size(), charts.size());
+  double sum = 0, area = 0;
+  Vec2 push = Vec2::Zero();
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    ASSERT_EQ(result.triangle_energy[c].size(), charts[c].triangles.size());
+    ASSERT_EQ(static_cast<int>(result.contact_forces[c].size()), charts[c].vertex_count());
+    for (std::size_t t = 0; t < charts[c].triangles.size(); ++t) {
+      sum += charts[c].surface[t].area * result.triangle_energy[c][t];
+      area += charts[c].surface[t].area;
+    }
+    for (const Vec2& force : result.contact_forces[c]) push += c == 0 ? force : Vec2::Zero();
+  }
+  EXPECT_NEAR(sum / area, result.energy, 1e-9);
+  EXPECT_LT(push.x(), 0);  // the left square is pushed to the left by the other
+}
+
 TEST(Reduce, StopsAtTheLargestDistortion) {
   const std::vector<Chart> charts = s_chart();
   const double limit = 1.01;

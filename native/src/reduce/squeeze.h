@@ -24,7 +24,7 @@ struct Squeezed {
   std::string gap_note;  ///< why the gaps before it were given up, in words; empty for the first
 };
 
-/// The gaps that an automatic one may take: the default and smaller ones, down to a fiftieth. Those that the charts' borders
+/// The gaps that an automatic one may take: the default and smaller ones, down to a sixtieth. Those that the charts' borders
 /// alone leave no room for at the bound are left out, but for the last.
 std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_bound, double box_aspect);
 
