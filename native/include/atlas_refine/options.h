@@ -49,9 +49,9 @@ struct RefineOptions {
   Seams seams = Seams::None;
   double box_aspect = 0;  ///< width / height of the texture that [0, 1]^2 stands for, in [0.01, 100]; 0 = a free box
   /// Hard where given. Else automatic: the largest of 0.0025 of the diagonal and smaller ones, each 0.6 of the one before, with
-  /// which the bound is reached without much distortion: the objective rises by at most 2 % on the way; where it rises by more, the
-  /// next one is kept if it spares a quarter of that (charts that are cut: with which the rectangles pack to the bound). A warning
-  /// says why larger ones were given up. An atlas that is left as it is keeps its own.
+  /// which the bound is reached without much distortion: the objective rises by at most 2 % on the way; where it rises by more,
+  /// the next one is kept if it spares a quarter of that (charts that are cut: with which the rectangles pack to the bound). A
+  /// warning says why larger ones were given up. An atlas that is left as it is keeps its own.
   std::optional<Gap> gap;
   std::optional<double> max_distortion;  ///< largest E_d allowed, >= 1; above it the call throws, with best_effort too
   /// Go on to the least of the objective under the bound where less would already hold it. Rectangles do so anyway, unless

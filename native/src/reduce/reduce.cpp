@@ -173,7 +173,8 @@ Counters counted(const Task& task, const Change& change, const Iterate& at, cons
   // Under heavy damping distortion tells of a collision, which may come apart again.
   const bool risen = schedule.damping <= kTelling && at.energy > (1 + problem.max_rise) * counters.least_energy;
   counters.expensive = risen ? counters.expensive + 1 : 0;
-  counters.distorted = !task.within_limit(at) && (quiet || hopeless(task, at, change)) ? counters.distorted + 1 : 0;
+  const bool above = !task.within_limit(at);
+  counters.distorted = above && hopeless(task, at, change) ? counters.distorted + 2 : above && quiet ? counters.distorted + 1 : 0;
   const bool progress = moved > 1e-5 * (at.energy - 1) + 0.1 * kNegligible || change.pe > 1e-5 * at.pe;
   counters.idle = progress ? 0 : counters.idle + 1;
   return counters;
