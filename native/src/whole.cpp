@@ -71,6 +71,12 @@ std::vector<Gap> gaps_of(const Refinement& run, const std::vector<Chart>& charts
   return automatic_gaps(charts, options.pe_bound, options.box_aspect);
 }
 
+void warn_of_gap(const Refinement& run, const Gap& gap, const std::string& why) {
+  if (run.options.gap || gap.value >= Gap{}.value) return;
+  run.journal.warnings.push_back("the gap was reduced from " + number_text("%g", Gap{}.value) + " to " +
+                                 number_text("%g", gap.value) + " of the box diagonal: " + why);
+}
+
 void squeeze_into(const Refinement& run, const std::vector<std::vector<Chart>>& starts, const std::vector<Gap>& gaps,
                   Solution& out) {
   const SqueezeOptions options{.pe_bound = run.options.pe_bound,
@@ -86,9 +92,7 @@ void squeeze_into(const Refinement& run, const std::vector<std::vector<Chart>>& 
   out.gap = best.gap;
   out.ended = ended_of(best.outcome.status);
   out.price = best.outcome.price;
-  if (!run.options.gap && !best.gap_note.empty())
-    run.journal.warnings.push_back("the gap was reduced from " + number_text("%g", Gap{}.value) + " to " +
-                                   number_text("%g", best.gap.value) + " of the box diagonal: " + best.gap_note);
+  warn_of_gap(run, best.gap, best.gap_note);
 }
 
 }  // namespace
@@ -109,7 +113,10 @@ Solution refine_whole(const Refinement& run, const ProgressRange& range) {
   run.journal.show("placed", placed);
   out.atlas = with_uvs(whole_atlas(charts), uvs_of(placed));
   out.gap = gaps.front();
-  if (holds(run, placed) && !options.relax) return out;
+  if (holds(run, placed) && !options.relax) {
+    warn_of_gap(run, out.gap, kNoRoom);
+    return out;
+  }
 
   run.journal.begin_stage("squeeze", range.part(0.4, 1));
   squeeze_into(run, starts_of(run, charts, own_is_valid && !scaled, placed, gaps.front()), gaps, out);

@@ -124,7 +124,7 @@ std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_boun
 Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor) {
   Squeezed out;
-  std::string note = options.gaps.front().value < Gap{}.value ? "a larger one leaves the charts no room at the bound" : "";
+  std::string note = options.gaps.front().value < Gap{}.value ? kNoRoom : "";
   std::vector<std::vector<Chart>> present = starts;
   for (const Gap& gap : options.gaps) {
     int best = 0;

@@ -17,6 +17,9 @@ struct SqueezeOptions {
   int threads = 1;
 };
 
+/// Why the first of automatic_gaps() may be smaller than the default.
+inline constexpr const char* kNoRoom = "a larger one leaves the charts no room at the bound";
+
 struct Squeezed {
   Gap gap;               ///< that was kept
   ReduceResult outcome;  ///< the best result
