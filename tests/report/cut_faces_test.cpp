@@ -70,7 +70,9 @@ int expect_corner_means(const Atlas& atlas, const CutFaces& out) {
         const int source = mesh.corner_sources[c][k];
         EXPECT_GE(source, atlas.face_offsets[mesh.face_sources[f]]);
         EXPECT_LT(source, atlas.face_offsets[mesh.face_sources[f] + 1]);
-        if (weights[k] == 0) EXPECT_EQ(source, mesh.corner_sources[c][heaviest]);
+        if (weights[k] == 0) {
+          EXPECT_EQ(source, mesh.corner_sources[c][heaviest]);
+        }
         there += weights[k] * atlas.positions[atlas.corner_vertices[source]];
       }
       EXPECT_EQ(there, out.positions[mesh.corner_vertices[c]]) << "faces of one vertex must agree to the last bit";
