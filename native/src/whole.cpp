@@ -56,6 +56,7 @@ std::vector<std::vector<Chart>> starts_of(const Refinement& run, const std::vect
 
 std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts) {
   std::vector<std::vector<Vec2>> out;
+  out.reserve(charts.size());
   for (const Chart& chart : charts) out.push_back(chart.uvs);
   return out;
 }

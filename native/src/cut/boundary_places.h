@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <tuple>
 #include <vector>
 
 #include "cut/cut_atlas.h"
@@ -11,7 +12,7 @@ namespace atlas_refine {
 /// A boundary edge in space; `low` < `high` are points in space.
 struct SpaceEdge {
   int low, high;
-  auto operator<=>(const SpaceEdge&) const = default;
+  bool operator<(const SpaceEdge& other) const { return std::tie(low, high) < std::tie(other.low, other.high); }
 };
 
 /// Divides every boundary side where some chart has a vertex at that place in space, so that the mesh in space stays closed.

@@ -66,8 +66,9 @@ struct StepBounds {
 template <class MeritAt>
 double line_search(double limit, double merit, double slope, MeritAt&& merit_at) {
   constexpr double kDecrease = 1e-4;
-  constexpr double kLeastFraction = 1e-9;
-  for (double fraction = limit; fraction > kLeastFraction; fraction *= 0.5) {
+  constexpr int kMostHalvings = 30;
+  double fraction = limit;
+  for (int k = 0; k < kMostHalvings; ++k, fraction *= 0.5) {
     if (merit_at(fraction) <= merit + kDecrease * fraction * slope) return fraction;
   }
   return 0;

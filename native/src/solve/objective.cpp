@@ -23,6 +23,7 @@ std::vector<double> length_factors(const std::vector<Chart>& pieces, const std::
     area += pieces[p].surface.area();
   }
   std::vector<double> factors;
+  factors.reserve(density.size());
   for (const double d : density) factors.push_back(d * std::sqrt(area / wanted));
   return factors;
 }
