@@ -14,6 +14,7 @@
 #include "importance_file.h"
 #include "interrupt.h"
 #include "io/input_file.h"
+#include "io/mesh_file.h"
 #include "output_file.h"
 #include "progress_bar.h"
 #include "report.h"
@@ -69,6 +70,8 @@ void check_outputs(const CommandLine& line) {
   const bool folder_missing = line.is_collection() && !std::filesystem::exists(line.output);
   if (line.is_collection()) check_folder_creatable(line.output);
   for (int k = 0; k < static_cast<int>(line.inputs.size()) && !folder_missing; ++k) check_writable(line.output_of(k));
+  if (!line.is_collection() && !io::names_mesh_file(line.output))
+    throw OutputError(line.output, "has an unknown format; OBJ files can be written, NAME.obj");
   if (line.report) check_writable(*line.report);
   for (int k = 0; k < static_cast<int>(line.inputs.size()) && line.report; ++k) {
     if (same_file(*line.report, line.output_of(k)))

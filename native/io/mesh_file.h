@@ -31,8 +31,11 @@ class MeshFile {
   virtual std::string with_cut(const CutMesh& cut, const std::vector<Vec2>& corner_uvs) const = 0;
 };
 
-/// Reads a file in the format of its name; so far every name stands for OBJ. Throws InputError that says what cannot be used and,
-/// in text, on which line.
+/// Reads an OBJ file, whatever its name. Throws InputError that says what cannot be used and, in text, on which line; a file of
+/// another format is named for what it is.
 std::unique_ptr<const MeshFile> read_mesh_file(const std::filesystem::path& path);
+
+/// Whether a file of this name is one that MeshFile can become: NAME.obj, in any case.
+bool names_mesh_file(const std::filesystem::path& path);
 
 }  // namespace atlas_refine::io

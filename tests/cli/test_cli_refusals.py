@@ -1,5 +1,6 @@
 """Bad input and bad usage: one clear line, the right exit code, nothing written, an old output left as it was."""
 
+import gzip
 import os
 import re
 
@@ -82,6 +83,42 @@ def test_missing_file_and_folder(program, tmp_path, old_output, job):
         assert program.refused(3, *arguments) == f"atlas-refine: {tmp_path / name}: " + (
             expected if name != "folder" else "is a directory, not an OBJ file"
         )
+
+
+FOREIGN_FILES = {
+    "glTF": (b'{"asset":{"version":"2.0"},"meshes":[]}', "a glTF file"),
+    "JSON": (b'\n{"v": 1}', "a JSON file"),
+    "GLB": (b"glTF\x02" + bytes(60), "a binary glTF (GLB) file"),
+    "PLY": (b"ply\nformat ascii 1.0\nelement vertex 3\n", "a PLY file"),
+    "gzip": (gzip.compress((QUAD + FACE).encode()), "a gzip file"),
+    "UTF-16": ((QUAD + FACE).encode("utf-16"), "a UTF-16 file"),
+    "UTF-16 without a mark": ((QUAD + FACE).encode("utf-16-le"), "a UTF-16 file"),
+    "big-endian UTF-16": ((QUAD + FACE).encode("utf-16-be"), "a UTF-16 file"),
+    "binary FBX": (b"Kaydara FBX Binary  \x00\x1a\x00" + bytes(40), "an FBX file"),
+    "ASCII FBX": (b"; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n}\n", "an FBX file"),
+    "binary STL": (b"solid by name only".ljust(80) + b"\x02\0\0\0" + bytes(100), "an STL file"),
+    "ASCII STL": (b"solid cube\n facet normal 0 0 1\n  outer loop\n", "an STL file"),
+    "ASCII USD": (b"#usda 1.0\n(\n)\n", "a USD file"),
+    "USD crate": (b"PXR-USDC" + bytes(40), "a USD file"),
+    "USDZ": (b"PK\x03\x04" + bytes(26) + b"model.usdc", "a USD file"),
+    "zip": (b"PK\x03\x04" + bytes(26) + b"model.obj", "a zip file"),
+    "COLLADA": (b'<?xml version="1.0"?>\n<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema">', "a COLLADA file"),
+}
+
+
+@pytest.mark.parametrize("case", FOREIGN_FILES)
+def test_file_of_another_format_is_named_for_what_it_is(program, tmp_path, old_output, case):
+    content, kind = FOREIGN_FILES[case]
+    path = tmp_path / "in.obj"
+    path.write_bytes(content)
+    assert program.refused(3, path, "-o", old_output) == f"atlas-refine: {path}: is {kind}, not an OBJ file"
+
+
+@pytest.mark.parametrize("name", ["out.glb", "out.ply", "out.obj.gz", "out"])
+def test_output_of_an_unknown_format_is_refused_before_anything_is_read(program, tmp_path, name):
+    message = program.refused(2, tmp_path / "not_there.obj", "-o", tmp_path / name)
+    assert message == f"atlas-refine: {tmp_path / name}: has an unknown format; OBJ files can be written, NAME.obj"
+    assert not any(tmp_path.iterdir())
 
 
 RECTANGLES = ["--seams", "rectangles"]
