@@ -39,9 +39,50 @@ std::string Collection::place_of_face(int face) const {
     const std::string more = files_.size() > 1 ? " and " + std::to_string(files_.size() - 1) + " more" : "";
     return files_.front().path.string() + more;
   }
-  const auto file =
-      std::prev(std::upper_bound(files_.begin(), files_.end(), face, [](int f, const File& x) { return f < x.first_face; }));
-  return file->path.string() + ": " + file->mesh->where(face - file->first_face);
+  const File& file = file_of_face(face);
+  return file.path.string() + ": " + file.mesh->where(face - file.first_face);
+}
+
+const Collection::File& Collection::file_of_face(int face) const {
+  return *std::prev(std::upper_bound(files_.begin(), files_.end(), face, [](int f, const File& x) { return f < x.first_face; }));
+}
+
+int Collection::face_count() const {
+  int count = 0;
+  for (const File& file : files_) count += file.mesh->face_count();
+  return count;
+}
+
+std::vector<double> Collection::of_atlas(const std::vector<double>& face_values) const {
+  std::vector<double> result;
+  int first = 0;
+  for (const File& file : files_) {
+    for (int face = 0; face < file.mesh->atlas().face_count(); ++face)
+      result.push_back(face_values[first + file.mesh->face_number(face)]);
+    first += file.mesh->face_count();
+  }
+  return result;
+}
+
+std::vector<std::string> Collection::notes() const {
+  std::vector<std::string> result;
+  for (const File& file : files_) {
+    const std::string name = files_.size() > 1 ? file.path.string() + ": " : "";
+    for (const std::string& note : file.mesh->notes()) result.push_back(name + note);
+  }
+  return result;
+}
+
+std::string Collection::message(const RefineError& error) const {
+  std::string text = error.what();
+  const int face = error.face();
+  if (face < 0 || face >= atlas().face_count()) return text;
+  const File& file = file_of_face(face);
+  const std::string named = "face " + std::to_string(face);
+  const std::size_t at = text.find(named), end = at + named.size();
+  const bool ends_there = at != std::string::npos && (end == text.size() || text[end] < '0' || text[end] > '9');
+  if (ends_there) text.replace(at, named.size(), "face " + std::to_string(file.mesh->face_number(face - file.first_face)));
+  return text;
 }
 
 Collection::Output Collection::output(int k, const RefineResult& result) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "atlas_refine/error.h"
 #include "atlas_refine/refine.h"
 #include "io/mesh_file.h"
 
@@ -21,7 +22,19 @@ class Collection {
   int file_count() const { return static_cast<int>(files_.size()); }
   const std::filesystem::path& path(int k) const { return files_[k].path; }
   const Atlas& atlas_of(int k) const { return files_[k].mesh->atlas(); }
+  int face_count_of(int k) const { return files_[k].mesh->face_count(); }
   const Atlas& atlas() const { return files_.size() == 1 ? atlas_of(0) : atlas_; }
+
+  /// Of all files, with the faces that are not in atlas().
+  int face_count() const;
+  /// Of one value for each face of the files those for the faces of atlas().
+  std::vector<double> of_atlas(const std::vector<double>& face_values) const;
+
+  /// What the files hold that is not in atlas(), or not as they have it; of several files each line names its own.
+  std::vector<std::string> notes() const;
+
+  /// The library's message, the face it is about numbered as in its file.
+  std::string message(const RefineError& error) const;
 
   /// "FILE" or, where the face (of atlas()) is known, "FILE: line N"; without a face the first file stands for all.
   std::string place_of_face(int face) const;
@@ -47,6 +60,7 @@ class Collection {
     std::vector<Vec2> corner_uvs;
     std::optional<CutMesh> cut;
   };
+  const File& file_of_face(int face) const;
   Part part(const File& file, const RefineResult& result) const;
   CutMesh cut_of(const File& file, const CutMesh& whole, std::size_t first, std::size_t last) const;
   NewVertex in_file(const File& file, const CutMesh& whole, int vertex, int corner) const;

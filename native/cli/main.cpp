@@ -63,7 +63,7 @@ int exit_code_of(ErrorCode code) {
 int complain(const RefineError& error, const Collection& files) {
   if (error.code() == ErrorCode::Cancelled) return exit_interrupted;
   if (error.code() == ErrorCode::BadOption) return complain(error.what(), exit_usage);
-  return complain(files.place_of_face(error.face()) + ": " + error.what(), exit_code_of(error.code()));
+  return complain(files.place_of_face(error.face()) + ": " + files.message(error), exit_code_of(error.code()));
 }
 
 void check_outputs(const CommandLine& line) {
@@ -110,7 +110,7 @@ std::vector<FileReport> write_outputs(const CommandLine& line, const Collection&
   for (int k = 0; k < files.file_count(); ++k) {
     const Collection::Output output = files.output(k, result);
     pending.emplace_back(line.output_of(k), output.bytes);
-    reports.push_back({files.path(k), line.output_of(k), files.atlas_of(k).face_count(), output.added_faces,
+    reports.push_back({files.path(k), line.output_of(k), files.face_count_of(k), output.added_faces,
                        static_cast<int>(files.atlas_of(k).positions.size()), output.added_vertices});
   }
   times.write = seconds_since(start);
@@ -128,14 +128,16 @@ int run_refine(CommandLine line) {
     Times times;
     auto start = std::chrono::steady_clock::now();
     for (const auto& input : line.inputs) files.add(input);
-    if (line.importance) line.options.importance = read_importance(*line.importance, files.atlas().face_count());
+    if (line.importance) line.options.importance = files.of_atlas(read_importance(*line.importance, files.face_count()));
     times.read = seconds_since(start);
 
     const InterruptScope ask_and_exit(OnInterrupt::AskAndExit);
     const auto debug = pictures(line);
     start = std::chrono::steady_clock::now();
-    const RefineResult result = refine_with_progress(files.atlas(), line.options, debug.get());
+    RefineResult result = refine_with_progress(files.atlas(), line.options, debug.get());
     times.refine = seconds_since(start);
+    const std::vector<std::string> notes = files.notes();
+    result.warnings.insert(result.warnings.begin(), notes.begin(), notes.end());
     const std::vector<FileReport> reports = write_outputs(line, files, result, times);
     std::fputs(summary(reports, result, times).c_str(), stdout);
     return exit_done;
