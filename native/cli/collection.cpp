@@ -73,16 +73,19 @@ std::vector<std::string> Collection::notes() const {
   return result;
 }
 
-std::string Collection::message(const RefineError& error) const {
-  std::string text = error.what();
-  const int face = error.face();
-  if (face < 0 || face >= atlas().face_count()) return text;
+int Collection::number_in_file(int face) const {
+  if (face < 0 || face >= atlas().face_count()) return -1;
   const File& file = file_of_face(face);
+  return file.mesh->face_number(face - file.first_face);
+}
+
+std::string Collection::words_in_file(std::string words, int face) const {
   const std::string named = "face " + std::to_string(face);
-  const std::size_t at = text.find(named), end = at + named.size();
-  const bool ends_there = at != std::string::npos && (end == text.size() || text[end] < '0' || text[end] > '9');
-  if (ends_there) text.replace(at, named.size(), "face " + std::to_string(file.mesh->face_number(face - file.first_face)));
-  return text;
+  const std::size_t at = words.find(named), end = at + named.size();
+  const bool ends_there = at != std::string::npos && (end == words.size() || words[end] < '0' || words[end] > '9');
+  if (const int number = number_in_file(face); number >= 0 && ends_there)
+    words.replace(at, named.size(), "face " + std::to_string(number));
+  return words;
 }
 
 Collection::Output Collection::output(int k, const RefineResult& result) const {

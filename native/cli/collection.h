@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "atlas_refine/error.h"
 #include "atlas_refine/refine.h"
 #include "io/mesh_file.h"
 
@@ -33,8 +32,10 @@ class Collection {
   /// What the files hold that is not in atlas(), or not as they have it; of several files each line names its own.
   std::vector<std::string> notes() const;
 
-  /// The library's message, the face it is about numbered as in its file.
-  std::string message(const RefineError& error) const;
+  /// The number in its file of a face of atlas(); -1 where there is none.
+  int number_in_file(int face) const;
+  /// The library's words about that face, with that number.
+  std::string words_in_file(std::string words, int face) const;
 
   /// "FILE" or, where the face (of atlas()) is known, "FILE: line N"; without a face the first file stands for all.
   std::string place_of_face(int face) const;

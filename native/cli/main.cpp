@@ -63,7 +63,8 @@ int exit_code_of(ErrorCode code) {
 int complain(const RefineError& error, const Collection& files) {
   if (error.code() == ErrorCode::Cancelled) return exit_interrupted;
   if (error.code() == ErrorCode::BadOption) return complain(error.what(), exit_usage);
-  return complain(files.place_of_face(error.face()) + ": " + files.message(error), exit_code_of(error.code()));
+  return complain(files.place_of_face(error.face()) + ": " + files.words_in_file(error.what(), error.face()),
+                  exit_code_of(error.code()));
 }
 
 void check_outputs(const CommandLine& line) {
@@ -151,9 +152,12 @@ int run_measure(const CommandLine& line) {
   try {
     files.add(line.inputs.front());
     const Measures measures = measure(files.atlas(), line.options.box_aspect);
-    const Validity validity = validate(files.atlas());
-    const std::string text =
+    Validity validity = validate(files.atlas());
+    validity.problem = files.words_in_file(validity.problem, validity.face);
+    validity.face = files.number_in_file(validity.face);
+    std::string text =
         line.json ? measures_json(line.inputs.front().string(), measures, validity) : measures_table(measures, validity);
+    for (const std::string& note : files.notes()) text += line.json ? "" : "warning: " + note + "\n";
     std::fputs(text.c_str(), stdout);
     return validity.valid() ? exit_done : exit_not_valid;
   } catch (const RefineError& error) {

@@ -120,12 +120,11 @@ TEST_F(Files, FacesAreCountedInTheirFileWithThoseLeftOut) {
   EXPECT_EQ(collection.of_atlas({1, 2, 3, 4, 5}), (std::vector<double>{2, 4, 5}));
   EXPECT_EQ(collection.notes()[1], (folder_ / "b.obj").string() + ": 1 face has corners without UVs and is left out (line 5)");
   EXPECT_EQ(collection.place_of_face(2), (folder_ / "b.obj").string() + ": line 7");
-  EXPECT_EQ(collection.message(RefineError(ErrorCode::BadInput, "charts", "face 2 of chart 1 is flipped", 1, 2)),
-            "face 2 of chart 1 is flipped");
-  EXPECT_EQ(collection.message(RefineError(ErrorCode::BadInput, "charts", "face 1 of chart 0 is flipped", 0, 1)),
-            "face 1 of chart 0 is flipped");
-  EXPECT_EQ(collection.message(RefineError(ErrorCode::BadInput, "charts", "face 0 of chart 0 is flipped", 0, 0)),
-            "face 1 of chart 0 is flipped");
+  EXPECT_EQ(collection.number_in_file(-1), -1);
+  EXPECT_EQ(collection.number_in_file(1), 1);
+  EXPECT_EQ(collection.words_in_file("face 0 of chart 0 is flipped", 0), "face 1 of chart 0 is flipped");
+  EXPECT_EQ(collection.words_in_file("face 01 is flipped", 0), "face 01 is flipped");
+  EXPECT_EQ(collection.words_in_file("a box without area", -1), "a box without area");
 }
 
 TEST_F(Files, AppearTogether) {

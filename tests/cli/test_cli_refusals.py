@@ -1,6 +1,7 @@
 """Bad input and bad usage: one clear line, the right exit code, nothing written, an old output left as it was."""
 
 import gzip
+import json
 import os
 import re
 
@@ -117,6 +118,16 @@ def test_output_of_an_unknown_format_is_refused_before_anything_is_read(program,
     message = program.refused(2, tmp_path / "not_there.obj", "-o", tmp_path / name)
     assert message == f"atlas-refine: {tmp_path / name}: has an unknown format; OBJ files can be written, NAME.obj"
     assert not any(tmp_path.iterdir())
+
+
+def test_a_face_is_named_as_in_its_file(program, tmp_path):
+    path = tmp_path / "in.obj"
+    path.write_text(QUAD + "f 1 2 3\nf 1/1 2/2 3/3\nf 1/1 3/3 3/3 4/1\n")
+    run = program("measure", path)
+    assert run.returncode == 1
+    assert b"no: face 2 of chart 0 has no area in the UV map" in run.stdout
+    assert b"warning: 1 face has corners without UVs and is left out (line 9)" in run.stdout
+    assert json.loads(program("measure", path, "--json").stdout)["validity"]["face"] == 2
 
 
 RECTANGLES = ["--seams", "rectangles"]
