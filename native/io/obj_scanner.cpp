@@ -8,6 +8,7 @@ namespace atlas_refine::io {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 }  // namespace
 
@@ -19,12 +20,15 @@ void ObjScanner::skip_indent() {
   while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
 }
 
+// A comment may follow a number without a blank; "1.#IND" is none of them.
 ObjText::Span ObjScanner::next_token() {
   skip_blanks();
   ObjText::Span token{at_, at_};
   if (at_ < text_.size() && text_[at_] == '#') return token;
-  while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '\n' && text_[at_] != '\r' && continuation_length(at_) == 0)
-    ++at_;
+  const auto ends_here = [&](char c) {
+    return is_blank(c) || c == '\n' || c == '\r' || continuation_length(at_) > 0 || (c == '#' && is_digit(text_[at_ - 1]));
+  };
+  while (at_ < text_.size() && !ends_here(text_[at_])) ++at_;
   token.end = at_;
   return token;
 }

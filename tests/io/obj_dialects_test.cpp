@@ -53,6 +53,9 @@ const std::vector<Dialect> dialects = {
     {"comments after data",
      "v 0 0 0 # v 1 2 3\nv 1 0 0 #\nv 1 1 0\nv 0 1 0\nvt <0> <0> # 1 2\nvt <1> <0>\nvt <1> <1> #\nvt <0> <1>\n"
      "f 1/1 2/2 3/3 # f 9/9 8/8 7/7\nf 1/1 3/3 4/4 #c\n"},
+    {"comments without a blank",
+     "v 0 0 0#v 1 2 3\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt <0> <0>#\nvt <1> <0>\nvt <1> <1>\nvt <0> <1>\nf 1/1 2/2 3/3#f 9\nf 1/1 3/3 "
+     "4/4\n"},
     {"comment lines", "# f 1 2 3\n" + positions + "  # vt 5 5\n#vt 6 6\n" + uvs + "#\n" + faces + "# end"},
     {"groups, materials, elements", "mtllib a b.mtl\no square\n" + positions + uvs +
                                         "vn 0 0 1\ng one two\nusemtl red paint\ns 1\nf 1/1/1 2/2/1 3/3/1\nl 1/1 2/2 3\nl -1 "
