@@ -42,6 +42,7 @@ std::vector<std::string> ObjFile::notes() const {
   note(text_.left_out_degenerate, "has fewer than three different vertices and is left out",
        "have fewer than three different vertices and are left out");
   note(text_.left_out_without_uvs, "has corners without UVs and is left out", "have corners without UVs and are left out");
+  note(text_.left_out_infinite, "has a UV that is not finite and is left out", "have a UV that is not finite and are left out");
   note(text_.left_out_revisiting, "comes to a vertex twice and is left out", "come to a vertex twice and are left out");
   return notes;
 }

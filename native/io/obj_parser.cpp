@@ -45,6 +45,8 @@ class ObjParser {
   void add_face();
   void add_corner(const Corner& corner);
   void add_element(const Corner& corner);
+  bool is_infinite(int uv) const;
+  [[noreturn]] void refuse_infinite_uv() const;
   void check_indices() const;
   void check_vertices(int face) const;
   void check_uv(const ObjText::UvReference& reference) const;
@@ -58,6 +60,8 @@ class ObjParser {
   ObjScanner scanner_;
   int highest_normal_ = -1;
   int line_of_highest_normal_ = 0;
+  int first_infinite_uv_ = -1;
+  int line_of_infinite_uv_ = 0;
   std::vector<Corner> corners_;  // of the present face
   std::vector<int> kept_;        // those of them that do not repeat the one before
   std::vector<int> sorted_;      // their vertices
@@ -120,7 +124,10 @@ void ObjParser::read_uv(std::size_t record_begin) {
   const bool has_v = record.v.begin != record.v.end;
   if (!has_v) record.v = {record.u.end, record.u.end};
   Vec2 uv(number(record.u), has_v ? number(record.v) : 0);
-  if (!uv.allFinite()) scanner_.fail("a UV that is not finite: " + quoted(obj_.view({record.u.begin, record.v.end})));
+  if (!uv.allFinite() && first_infinite_uv_ < 0) {
+    first_infinite_uv_ = static_cast<int>(obj_.uv_records.size());
+    line_of_infinite_uv_ = scanner_.line();
+  }
   for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token()) number(token);  // w
   scanner_.skip_logical_line();
   record.whole = {record_begin, scanner_.at()};
@@ -174,7 +181,18 @@ ObjText::Remark* ObjParser::reason_to_leave_out() {
   const auto distinct = std::unique(sorted_.begin(), sorted_.end()) - sorted_.begin();
   if (distinct < 3) return &obj_.left_out_degenerate;
   if (std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.uv < 0; })) return &obj_.left_out_without_uvs;
+  if (std::any_of(corners_.begin(), corners_.end(), [&](const Corner& c) { return is_infinite(c.uv); }))
+    return &obj_.left_out_infinite;
   return distinct < static_cast<std::ptrdiff_t>(kept_.size()) ? &obj_.left_out_revisiting : nullptr;
+}
+
+bool ObjParser::is_infinite(int uv) const {
+  return first_infinite_uv_ >= 0 && uv < static_cast<int>(obj_.uv_records.size()) && !obj_.uv_records[uv].value.allFinite();
+}
+
+void ObjParser::refuse_infinite_uv() const {
+  const ObjText::UvRecord& record = obj_.uv_records[first_infinite_uv_];
+  scanner_.fail_at(line_of_infinite_uv_, "a UV that is not finite: " + quoted(obj_.view({record.u.begin, record.v.end})));
 }
 
 void ObjParser::add_face() {
@@ -242,6 +260,7 @@ void ObjParser::check_indices() const {
     refuse(obj_.left_out_without_uvs.count > 0 ? "has no UVs: no face has a vt index at each of its corners"
                                                : "has no faces of three different vertices");
   }
+  if (atlas.face_count() == 0 && obj_.left_out_infinite.count > 0) refuse_infinite_uv();
   if (atlas.face_count() == 0) refuse("has no faces with UVs that come to each of their vertices once");
   if (highest_normal_ >= static_cast<int>(obj_.normal_records.size()))
     scanner_.fail_at(line_of_highest_normal_, "normal index " + std::to_string(highest_normal_ + 1) +
@@ -262,6 +281,8 @@ void ObjParser::check_vertices(int face) const {
 }
 
 void ObjParser::check_uv(const ObjText::UvReference& reference) const {
+  // A face before its vt records is not left out.
+  if (reference.corner >= 0 && is_infinite(reference.record)) refuse_infinite_uv();
   if (reference.record < static_cast<int>(obj_.uv_records.size())) return;
   const std::string what = "UV index " + std::to_string(reference.record + 1) + " is out of range, the file has " +
                            std::to_string(obj_.uv_records.size()) + " UVs";

@@ -80,6 +80,7 @@ struct ObjText {
   Remark with_repeats;
   Remark left_out_degenerate;  ///< fewer than three different vertices
   Remark left_out_without_uvs;
+  Remark left_out_infinite;    ///< a UV is not finite
   Remark left_out_revisiting;  ///< a vertex comes twice, and not in a row
 };
 

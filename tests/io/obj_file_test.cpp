@@ -171,6 +171,21 @@ TEST(ObjFile, ACornerThatIsRepeatedWithAnotherUvFollowsTheFirst) {
   EXPECT_NE(text.find("vt 2 1\nvt 3 1\nvt 3 0\nf"), std::string::npos) << text;
 }
 
+TEST(ObjFile, AFaceWithAnInfiniteUvIsLeftOutAndItsRecordKept) {
+  for (const std::string number : {"nan 0", "0 -NaN", "inf", "-nan(ind) 1e999 # bad"}) {
+    const std::string text = "vt " + number + "\nf 2/2 3/3 6/8 5/5\n";
+    const ObjFile file = ObjFile::parse(two_quads(text));
+    EXPECT_EQ(file.atlas().face_offsets, (std::vector<int>{0, 4, 7})) << number;
+    EXPECT_EQ(file.notes(), std::vector<std::string>{"1 face has a UV that is not finite and is left out (line 17)"});
+    EXPECT_EQ(file.with_uvs(file.atlas().corner_uvs), two_quads(text));
+    EXPECT_NE(file.with_uvs(shifted(file.atlas().corner_uvs, 0, 1)).find("4/4\n" + text + "f 3/3"), std::string::npos);
+    EXPECT_NE(file.with_uvs(shifted(file.atlas().corner_uvs, 4, 1)).find("\nvt " + number + "\nf 2/2 3/3 6/9 5/5\n"),
+              std::string::npos)
+        << file.with_uvs(shifted(file.atlas().corner_uvs, 4, 1));
+    EXPECT_THROW(ObjFile::parse("f 1/8 2/1 3/1\n" + two_quads(text)), RefineError) << "a face before its vt record";
+  }
+}
+
 TEST(ObjFile, HomogeneousPositionsAreDividedByW) {
   const ObjFile file = ObjFile::parse("v 2 4 6 2\nv 1 0 0 1.0\nv 0 1 0 0\nv 1 2 3 0.5 0.5 0.5\nvt 0 0\nf 1/1 2/1 3/1 4/1\n");
   EXPECT_EQ(file.atlas().positions, (std::vector<Vec3>{{1, 2, 3}, {1, 0, 0}, {0, 1, 0}, {1, 2, 3}}));
