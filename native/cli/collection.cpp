@@ -39,9 +39,53 @@ std::string Collection::place_of_face(int face) const {
     const std::string more = files_.size() > 1 ? " and " + std::to_string(files_.size() - 1) + " more" : "";
     return files_.front().path.string() + more;
   }
-  const auto file =
-      std::prev(std::upper_bound(files_.begin(), files_.end(), face, [](int f, const File& x) { return f < x.first_face; }));
-  return file->path.string() + ": " + file->mesh->where(face - file->first_face);
+  const File& file = file_of_face(face);
+  return file.path.string() + ": " + file.mesh->where(face - file.first_face);
+}
+
+const Collection::File& Collection::file_of_face(int face) const {
+  return *std::prev(std::upper_bound(files_.begin(), files_.end(), face, [](int f, const File& x) { return f < x.first_face; }));
+}
+
+int Collection::face_count() const {
+  int count = 0;
+  for (const File& file : files_) count += file.mesh->face_count();
+  return count;
+}
+
+std::vector<double> Collection::of_atlas(const std::vector<double>& face_values) const {
+  std::vector<double> result;
+  int first = 0;
+  for (const File& file : files_) {
+    for (int face = 0; face < file.mesh->atlas().face_count(); ++face)
+      result.push_back(face_values[first + file.mesh->face_number(face)]);
+    first += file.mesh->face_count();
+  }
+  return result;
+}
+
+std::vector<std::string> Collection::notes() const {
+  std::vector<std::string> result;
+  for (const File& file : files_) {
+    const std::string name = files_.size() > 1 ? file.path.string() + ": " : "";
+    for (const std::string& note : file.mesh->notes()) result.push_back(name + note);
+  }
+  return result;
+}
+
+int Collection::number_in_file(int face) const {
+  if (face < 0 || face >= atlas().face_count()) return -1;
+  const File& file = file_of_face(face);
+  return file.mesh->face_number(face - file.first_face);
+}
+
+std::string Collection::words_in_file(std::string words, int face) const {
+  const std::string named = "face " + std::to_string(face);
+  const std::size_t at = words.find(named), end = at + named.size();
+  const bool ends_there = at != std::string::npos && (end == words.size() || words[end] < '0' || words[end] > '9');
+  if (const int number = number_in_file(face); number >= 0 && ends_there)
+    words.replace(at, named.size(), "face " + std::to_string(number));
+  return words;
 }
 
 Collection::Output Collection::output(int k, const RefineResult& result) const {

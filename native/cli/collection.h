@@ -21,7 +21,21 @@ class Collection {
   int file_count() const { return static_cast<int>(files_.size()); }
   const std::filesystem::path& path(int k) const { return files_[k].path; }
   const Atlas& atlas_of(int k) const { return files_[k].mesh->atlas(); }
+  int face_count_of(int k) const { return files_[k].mesh->face_count(); }
   const Atlas& atlas() const { return files_.size() == 1 ? atlas_of(0) : atlas_; }
+
+  /// Of all files, with the faces that are not in atlas().
+  int face_count() const;
+  /// Of one value for each face of the files those for the faces of atlas().
+  std::vector<double> of_atlas(const std::vector<double>& face_values) const;
+
+  /// What the files hold that is not in atlas(), or not as they have it; of several files each line names its own.
+  std::vector<std::string> notes() const;
+
+  /// The number in its file of a face of atlas(); -1 where there is none.
+  int number_in_file(int face) const;
+  /// The library's words about that face, with that number.
+  std::string words_in_file(std::string words, int face) const;
 
   /// "FILE" or, where the face (of atlas()) is known, "FILE: line N"; without a face the first file stands for all.
   std::string place_of_face(int face) const;
@@ -47,6 +61,7 @@ class Collection {
     std::vector<Vec2> corner_uvs;
     std::optional<CutMesh> cut;
   };
+  const File& file_of_face(int face) const;
   Part part(const File& file, const RefineResult& result) const;
   CutMesh cut_of(const File& file, const CutMesh& whole, std::size_t first, std::size_t last) const;
   NewVertex in_file(const File& file, const CutMesh& whole, int vertex, int corner) const;

@@ -14,6 +14,7 @@
 #include "importance_file.h"
 #include "interrupt.h"
 #include "io/input_file.h"
+#include "io/mesh_file.h"
 #include "output_file.h"
 #include "progress_bar.h"
 #include "report.h"
@@ -62,13 +63,16 @@ int exit_code_of(ErrorCode code) {
 int complain(const RefineError& error, const Collection& files) {
   if (error.code() == ErrorCode::Cancelled) return exit_interrupted;
   if (error.code() == ErrorCode::BadOption) return complain(error.what(), exit_usage);
-  return complain(files.place_of_face(error.face()) + ": " + error.what(), exit_code_of(error.code()));
+  return complain(files.place_of_face(error.face()) + ": " + files.words_in_file(error.what(), error.face()),
+                  exit_code_of(error.code()));
 }
 
 void check_outputs(const CommandLine& line) {
   const bool folder_missing = line.is_collection() && !std::filesystem::exists(line.output);
   if (line.is_collection()) check_folder_creatable(line.output);
   for (int k = 0; k < static_cast<int>(line.inputs.size()) && !folder_missing; ++k) check_writable(line.output_of(k));
+  if (!line.is_collection() && !io::names_mesh_file(line.output))
+    throw OutputError(line.output, "has an unknown format; OBJ files can be written, NAME.obj");
   if (line.report) check_writable(*line.report);
   for (int k = 0; k < static_cast<int>(line.inputs.size()) && line.report; ++k) {
     if (same_file(*line.report, line.output_of(k)))
@@ -107,7 +111,7 @@ std::vector<FileReport> write_outputs(const CommandLine& line, const Collection&
   for (int k = 0; k < files.file_count(); ++k) {
     const Collection::Output output = files.output(k, result);
     pending.emplace_back(line.output_of(k), output.bytes);
-    reports.push_back({files.path(k), line.output_of(k), files.atlas_of(k).face_count(), output.added_faces,
+    reports.push_back({files.path(k), line.output_of(k), files.face_count_of(k), output.added_faces,
                        static_cast<int>(files.atlas_of(k).positions.size()), output.added_vertices});
   }
   times.write = seconds_since(start);
@@ -125,14 +129,16 @@ int run_refine(CommandLine line) {
     Times times;
     auto start = std::chrono::steady_clock::now();
     for (const auto& input : line.inputs) files.add(input);
-    if (line.importance) line.options.importance = read_importance(*line.importance, files.atlas().face_count());
+    if (line.importance) line.options.importance = files.of_atlas(read_importance(*line.importance, files.face_count()));
     times.read = seconds_since(start);
 
     const InterruptScope ask_and_exit(OnInterrupt::AskAndExit);
     const auto debug = pictures(line);
     start = std::chrono::steady_clock::now();
-    const RefineResult result = refine_with_progress(files.atlas(), line.options, debug.get());
+    RefineResult result = refine_with_progress(files.atlas(), line.options, debug.get());
     times.refine = seconds_since(start);
+    const std::vector<std::string> notes = files.notes();
+    result.warnings.insert(result.warnings.begin(), notes.begin(), notes.end());
     const std::vector<FileReport> reports = write_outputs(line, files, result, times);
     std::fputs(summary(reports, result, times).c_str(), stdout);
     return exit_done;
@@ -146,9 +152,12 @@ int run_measure(const CommandLine& line) {
   try {
     files.add(line.inputs.front());
     const Measures measures = measure(files.atlas(), line.options.box_aspect);
-    const Validity validity = validate(files.atlas());
-    const std::string text =
+    Validity validity = validate(files.atlas());
+    validity.problem = files.words_in_file(validity.problem, validity.face);
+    validity.face = files.number_in_file(validity.face);
+    std::string text =
         line.json ? measures_json(line.inputs.front().string(), measures, validity) : measures_table(measures, validity);
+    for (const std::string& note : files.notes()) text += line.json ? "" : "warning: " + note + "\n";
     std::fputs(text.c_str(), stdout);
     return validity.valid() ? exit_done : exit_not_valid;
   } catch (const RefineError& error) {

@@ -15,10 +15,19 @@ class MeshFile {
  public:
   virtual ~MeshFile() = default;
 
-  /// Positions, polygons and UVs in the file's order.
+  /// Positions, polygons and UVs in the file's order, without the faces that no atlas can hold.
   virtual const Atlas& atlas() const = 0;
 
-  /// Where in the file face `face` (0-based) is, as messages say it: "line 12".
+  /// Of all faces, those that `atlas()` leaves out as well.
+  virtual int face_count() const = 0;
+
+  /// The number among all faces (0-based) of face `face` of `atlas()`.
+  virtual int face_number(int face) const = 0;
+
+  /// What `atlas()` leaves out or takes otherwise than the file has it: one line for each kind. It is written as it was.
+  virtual std::vector<std::string> notes() const = 0;
+
+  /// Where in the file face `face` (0-based, of `atlas()`) is, as messages say it: "line 12".
   virtual std::string where(int face) const = 0;
 
   /// The file's bytes with these UVs, one per corner of `atlas()`; all else stays as it was. With the file's own UVs these are
@@ -31,8 +40,11 @@ class MeshFile {
   virtual std::string with_cut(const CutMesh& cut, const std::vector<Vec2>& corner_uvs) const = 0;
 };
 
-/// Reads a file in the format of its name; so far every name stands for OBJ. Throws InputError that says what cannot be used and,
-/// in text, on which line.
+/// Reads an OBJ file, whatever its name. Throws InputError that says what cannot be used and, in text, on which line; a file of
+/// another format is named for what it is.
 std::unique_ptr<const MeshFile> read_mesh_file(const std::filesystem::path& path);
+
+/// Whether a file of this name is one that MeshFile can become: NAME.obj, in any case.
+bool names_mesh_file(const std::filesystem::path& path);
 
 }  // namespace atlas_refine::io

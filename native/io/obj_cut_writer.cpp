@@ -38,8 +38,8 @@ void ObjCutWriter::find_parts() {
 
 void ObjCutWriter::find_uvs(const std::vector<Vec2>& corner_uvs) {
   std::vector<int> record_of_corner(atlas_.corner_count());
-  for (const ObjText::UvReference& reference : file_.uv_references) {
-    if (reference.corner >= 0) record_of_corner[reference.corner] = reference.record;
+  for (auto reference = file_.uv_references.rbegin(); reference != file_.uv_references.rend(); ++reference) {
+    if (reference->corner >= 0) record_of_corner[reference->corner] = reference->record;
   }
   std::vector<UvUse> uses;
   uses.reserve(corner_uvs.size());
@@ -52,30 +52,27 @@ void ObjCutWriter::find_uvs(const std::vector<Vec2>& corner_uvs) {
 
 void ObjCutWriter::find_normals() {
   normals_.assign(cut_.corner_vertices.size(), -1);
-  for (std::size_t part = 0; part < cut_.face_sources.size(); ++part) {
-    const int face = cut_.face_sources[part];
-    if (file_.corner_normals[atlas_.face_offsets[face]] < 0) continue;
-    for (int c = cut_.face_offsets[part]; c < cut_.face_offsets[part + 1]; ++c)
-      normals_[c] = is_new(c) ? interpolated_normal(c) : file_.corner_normals[cut_.corner_sources[c][0]];
-  }
+  for (int c = 0; c < static_cast<int>(normals_.size()); ++c)
+    normals_[c] = is_new(c) ? interpolated_normal(c) : file_.corner_normals[cut_.corner_sources[c][0]];
 }
 
-// Where normals cancel or cannot be read, the nearest corner's normal serves.
+// Where normals cancel, cannot be read or are not given at all of the corners, the nearest corner's normal serves.
 int ObjCutWriter::interpolated_normal(int corner) {
   const Vec3& weights = cut_.corner_weights[corner];
   int heaviest = 0;
   weights.maxCoeff(&heaviest);
   const int nearest = file_.corner_normals[cut_.corner_sources[corner][heaviest]];
   Vec3 sum = Vec3::Zero();
-  bool all_equal = true;
+  bool all_equal = true, all_given = true;
   for (int i = 0; i < 3; ++i) {
     if (weights[i] == 0) continue;
     const int normal = file_.corner_normals[cut_.corner_sources[corner][i]];
     all_equal = all_equal && normal == nearest;
-    sum += weights[i] * file_.normal_records[normal].value;
+    all_given = all_given && normal >= 0;
+    if (all_given) sum += weights[i] * file_.normal_records[normal].value;
   }
   const double length = sum.norm();
-  if (all_equal || !(length > 0) || !std::isfinite(length)) return nearest;
+  if (all_equal || !all_given || !(length > 0) || !std::isfinite(length)) return nearest;
   sum /= length;
   const auto next = static_cast<int>(file_.normal_records.size() + new_normals_.size());
   const auto [place, is_new] = index_of_normal_.try_emplace({sum.x(), sum.y(), sum.z()}, next);
@@ -108,8 +105,8 @@ std::vector<ObjCutWriter::Edit> ObjCutWriter::edits() const {
   }
   for (int face = 0; face < atlas_.face_count(); ++face)
     result.push_back({file_.face_records[face].whole, Edit::Kind::Face, face});
-  for (const auto& reference : file_.vertex_references)
-    result.push_back({reference.text, Edit::Kind::VertexIndex, reference.vertex});
+  for (const auto& reference : file_.element_references)
+    result.push_back({reference.text, Edit::Kind::ElementIndex, reference.record});
   for (const auto& reference : file_.uv_references) {
     if (reference.corner < 0) result.push_back({reference.text, Edit::Kind::UvIndex, uvs_.first[reference.record]});
   }
@@ -128,7 +125,7 @@ void ObjCutWriter::write(const Edit& edit) {
       if (edit.index == 0) write_moved_records();
       write_face(edit.index);
       break;
-    case Edit::Kind::VertexIndex:
+    case Edit::Kind::ElementIndex:
     case Edit::Kind::UvIndex:
       out_ += std::to_string(edit.index + 1);
       break;
@@ -162,7 +159,7 @@ void ObjCutWriter::write_moved_records() {
   }
 }
 
-// The numbers behind a position (w, a colour) are interpolated where all corners have as many of them.
+// The numbers behind a position (a colour) are interpolated where all corners have as many of them; w of a mean is 1.
 void ObjCutWriter::write_new_positions() {
   for (const NewVertex& vertex : cut_.new_vertices) {
     out_ += "v";
@@ -173,7 +170,8 @@ void ObjCutWriter::write_new_positions() {
     for (int k = 0; k < 3; ++k) records[k] = &file_.position_records[atlas_.corner_vertices[vertex.corners[k]]];
     const int count = records[0]->extra_count;
     const bool same = count == records[1]->extra_count && (vertex.weights[2] == 0 || count == records[2]->extra_count);
-    for (int i = 0; same && i < count; ++i) {
+    if (same && count == 1) out_ += " 1";
+    for (int i = 0; same && count > 1 && i < count; ++i) {
       double number = 0;
       for (int k = 0; k < 3; ++k) {
         if (vertex.weights[k] != 0) number += vertex.weights[k] * file_.extras[records[k]->first_extra + i];
@@ -186,15 +184,23 @@ void ObjCutWriter::write_new_positions() {
 
 void ObjCutWriter::write_face(int face) {
   const Span tail = file_.face_records[face].tail;
+  const bool is_whole = first_part_[face + 1] - first_part_[face] == 1;
   for (int part = first_part_[face]; part < first_part_[face + 1]; ++part) {
     out_ += 'f';
     for (int c = cut_.face_offsets[part]; c < cut_.face_offsets[part + 1]; ++c) {
-      out_ += ' ' + std::to_string(cut_.corner_vertices[c] + 1) + '/' + std::to_string(uvs_.of_corner[c] + 1);
-      if (normals_[c] >= 0) out_ += '/' + std::to_string(normals_[c] + 1);
+      std::string corner = ' ' + std::to_string(cut_.corner_vertices[c] + 1) + '/' + std::to_string(uvs_.of_corner[c] + 1);
+      if (normals_[c] >= 0) corner += '/' + std::to_string(normals_[c] + 1);
+      for (int times = is_whole ? times_named(c) : 1; times > 0; --times) out_ += corner;
     }
     if (part + 1 < first_part_[face + 1]) end_line();
   }
   out_.append(file_.text, tail.begin, tail.end - tail.begin);
+}
+
+int ObjCutWriter::times_named(int corner) const {
+  if (is_new(corner)) return 1;
+  const auto repeats = file_.repeats.find(cut_.corner_sources[corner][0]);
+  return repeats == file_.repeats.end() ? 1 : 1 + repeats->second;
 }
 
 void ObjCutWriter::write_whole(Span record) {

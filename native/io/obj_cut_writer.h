@@ -23,7 +23,7 @@ class ObjCutWriter {
   /// A stretch of the file's text that the output has something else for.
   struct Edit {
     Span span;
-    enum class Kind { Drop, UvRecord, Face, VertexIndex, UvIndex } kind;
+    enum class Kind { Drop, UvRecord, Face, ElementIndex, UvIndex } kind;
     int index = -1;
   };
 
@@ -38,6 +38,7 @@ class ObjCutWriter {
   void write_moved_records();
   void write_new_positions();
   void write_face(int face);
+  int times_named(int corner) const;
   void write_whole(Span record);
   void end_line();
   bool stands_behind_first_face(Span record) const { return record.begin > file_.face_records.front().whole.begin; }

@@ -29,6 +29,24 @@ void write_reference(const ObjText& obj, const ObjText::UvReference& reference, 
 
 ObjFile ObjFile::parse(std::string text) { return ObjFile(parse_obj(std::move(text))); }
 
+std::vector<std::string> ObjFile::notes() const {
+  std::vector<std::string> notes;
+  const auto note = [&](const ObjText::Remark& remark, const std::string& one, const std::string& several) {
+    const std::string line = std::to_string(remark.first_line);
+    if (remark.count == 1) notes.push_back("1 face " + one + " (line " + line + ")");
+    if (remark.count > 1)
+      notes.push_back(std::to_string(remark.count) + " faces " + several + " (the first on line " + line + ")");
+  };
+  note(text_.with_repeats, "names a vertex several times in a row, taken once",
+       "name a vertex several times in a row, taken once");
+  note(text_.left_out_degenerate, "has fewer than three different vertices and is left out",
+       "have fewer than three different vertices and are left out");
+  note(text_.left_out_without_uvs, "has corners without UVs and is left out", "have corners without UVs and are left out");
+  note(text_.left_out_infinite, "has a UV that is not finite and is left out", "have a UV that is not finite and are left out");
+  note(text_.left_out_revisiting, "comes to a vertex twice and is left out", "come to a vertex twice and are left out");
+  return notes;
+}
+
 std::string ObjFile::with_cut(const CutMesh& cut, const std::vector<Vec2>& corner_uvs) const {
   return ObjCutWriter(text_, cut, corner_uvs).text();
 }

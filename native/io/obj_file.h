@@ -12,10 +12,15 @@ namespace atlas_refine::io {
 class ObjFile final : public MeshFile {
  public:
   /// Reads text of v, vt, vn and f records; all other records (groups, materials, lines, comments, ...) are kept unread. Throws
-  /// RefineError(BadInput) that names the line where a record cannot be used.
+  /// RefineError(BadInput) that names the line where a record cannot be used. A vertex that a face names several times in a row
+  /// is one corner of it; faces with fewer than three different vertices, with a vertex that comes twice, or without a finite UV
+  /// at each corner are not in the atlas.
   static ObjFile parse(std::string text);
 
   const Atlas& atlas() const override { return text_.atlas; }
+  int face_count() const override { return text_.face_count; }
+  int face_number(int face) const override { return text_.face_records[face].number; }
+  std::vector<std::string> notes() const override;
   std::string where(int face) const override { return "line " + std::to_string(text_.face_records[face].line); }
 
   /// Only vt records and vt indices differ: each vt record becomes one record per value its corners now hold, so the UVs stay as

@@ -31,6 +31,7 @@ class ObjParser {
     int normal = -1;
     Span vertex_text;
     Span uv_text;
+    Span normal_text;
   };
 
   void read_record();
@@ -40,9 +41,15 @@ class ObjParser {
   void read_face(std::size_t record_begin);
   void read_line_element();
   void read_point_element();
+  ObjText::Remark* reason_to_leave_out();
+  void add_face();
   void add_corner(const Corner& corner);
+  void add_element(const Corner& corner);
+  bool is_infinite(int uv) const;
+  [[noreturn]] void refuse_infinite_uv() const;
   void check_indices() const;
-  void check_face(int face, std::vector<int>& face_seen_at_vertex) const;
+  void check_vertices(int face) const;
+  void check_uv(const ObjText::UvReference& reference) const;
 
   Corner corner(Span token) const;
   int index(std::string_view text, Span token, std::size_t count) const;
@@ -53,8 +60,11 @@ class ObjParser {
   ObjScanner scanner_;
   int highest_normal_ = -1;
   int line_of_highest_normal_ = 0;
-  bool any_uvs_ = false;
-  int first_face_without_uvs_ = -1;
+  int first_infinite_uv_ = -1;
+  int line_of_infinite_uv_ = 0;
+  std::vector<Corner> corners_;  // of the present face
+  std::vector<int> kept_;        // those of them that do not repeat the one before
+  std::vector<int> sorted_;      // their vertices
 };
 
 ObjText ObjParser::run() && {
@@ -63,8 +73,8 @@ ObjText ObjParser::run() && {
   while (!scanner_.at_end()) read_record();
   check_indices();
   obj_.atlas.corner_uvs.resize(obj_.atlas.corner_vertices.size());
-  for (const ObjText::UvReference& reference : obj_.uv_references) {
-    if (reference.corner >= 0) obj_.atlas.corner_uvs[reference.corner] = obj_.uv_records[reference.record].value;
+  for (auto reference = obj_.uv_references.rbegin(); reference != obj_.uv_references.rend(); ++reference) {
+    if (reference->corner >= 0) obj_.atlas.corner_uvs[reference->corner] = obj_.uv_records[reference->record].value;
   }
   return std::move(obj_);
 }
@@ -101,6 +111,7 @@ void ObjParser::read_position(std::size_t record_begin) {
     obj_.extras.push_back(number(token));
   scanner_.skip_logical_line();
   record.extra_count = static_cast<int>(obj_.extras.size()) - record.first_extra;
+  if (record.extra_count == 1 && obj_.extras.back() != 0) obj_.atlas.positions.back() /= obj_.extras.back();
   record.whole = {record_begin, scanner_.at()};
   obj_.position_records.push_back(record);
 }
@@ -113,7 +124,10 @@ void ObjParser::read_uv(std::size_t record_begin) {
   const bool has_v = record.v.begin != record.v.end;
   if (!has_v) record.v = {record.u.end, record.u.end};
   Vec2 uv(number(record.u), has_v ? number(record.v) : 0);
-  if (!uv.allFinite()) scanner_.fail("a UV that is not finite: " + quoted(obj_.view({record.u.begin, record.v.end})));
+  if (!uv.allFinite() && first_infinite_uv_ < 0) {
+    first_infinite_uv_ = static_cast<int>(obj_.uv_records.size());
+    line_of_infinite_uv_ = scanner_.line();
+  }
   for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token()) number(token);  // w
   scanner_.skip_logical_line();
   record.whole = {record_begin, scanner_.at()};
@@ -133,52 +147,95 @@ void ObjParser::read_normal(std::size_t record_begin) {
 }
 
 void ObjParser::read_face(std::size_t record_begin) {
-  const int face = obj_.atlas.face_count();
-  int corners = 0;
-  Corner first;
   ObjText::FaceRecord record;
   record.line = scanner_.line();
-  for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token(), ++corners) {
+  record.number = obj_.face_count++;
+  corners_.clear();
+  for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token()) {
     record.tail.begin = token.end;
-    const Corner c = corner(token);
-    if (corners == 0) first = c;
-    if ((c.uv < 0) != (first.uv < 0) || (c.normal < 0) != (first.normal < 0))
-      scanner_.fail("face " + std::to_string(face) + ": corner " + quoted(obj_.view(token)) +
-                    " has other parts than the face's first corner");
-    add_corner(c);
+    corners_.push_back(corner(token));
   }
-  if (corners < 3) scanner_.fail("face " + std::to_string(face) + " has " + std::to_string(corners) + " corners, 3 are needed");
-  if (first.uv >= 0) {
-    any_uvs_ = true;
-  } else if (first_face_without_uvs_ < 0) {
-    first_face_without_uvs_ = face;
-  }
-  obj_.atlas.face_offsets.push_back(obj_.atlas.corner_count());
   scanner_.skip_logical_line();
   record.tail.end = scanner_.at();
   record.whole = {record_begin, scanner_.at()};
+  if (ObjText::Remark* reason = reason_to_leave_out()) {
+    reason->add(record.line);
+    for (const Corner& corner : corners_) add_element(corner);
+    return;
+  }
+  if (kept_.size() < corners_.size()) obj_.with_repeats.add(record.line);
   obj_.face_records.push_back(record);
+  add_face();
+}
+
+// Null where the face is in the atlas.
+ObjText::Remark* ObjParser::reason_to_leave_out() {
+  kept_.clear();
+  for (int k = 0; k < static_cast<int>(corners_.size()); ++k) {
+    if (kept_.empty() || corners_[kept_.back()].vertex != corners_[k].vertex) kept_.push_back(k);
+  }
+  while (kept_.size() > 1 && corners_[kept_.back()].vertex == corners_[kept_.front()].vertex) kept_.pop_back();
+  sorted_.clear();
+  for (int k : kept_) sorted_.push_back(corners_[k].vertex);
+  std::sort(sorted_.begin(), sorted_.end());
+  const auto distinct = std::unique(sorted_.begin(), sorted_.end()) - sorted_.begin();
+  if (distinct < 3) return &obj_.left_out_degenerate;
+  if (std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.uv < 0; })) return &obj_.left_out_without_uvs;
+  if (std::any_of(corners_.begin(), corners_.end(), [&](const Corner& c) { return is_infinite(c.uv); }))
+    return &obj_.left_out_infinite;
+  return distinct < static_cast<std::ptrdiff_t>(kept_.size()) ? &obj_.left_out_revisiting : nullptr;
+}
+
+bool ObjParser::is_infinite(int uv) const {
+  return first_infinite_uv_ >= 0 && uv < static_cast<int>(obj_.uv_records.size()) && !obj_.uv_records[uv].value.allFinite();
+}
+
+void ObjParser::refuse_infinite_uv() const {
+  const ObjText::UvRecord& record = obj_.uv_records[first_infinite_uv_];
+  scanner_.fail_at(line_of_infinite_uv_, "a UV that is not finite: " + quoted(obj_.view({record.u.begin, record.v.end})));
+}
+
+void ObjParser::add_face() {
+  const int first = obj_.atlas.corner_count();
+  std::size_t next = 0;
+  for (int k = 0; k < static_cast<int>(corners_.size()); ++k) {
+    const Corner& corner = corners_[k];
+    if (next < kept_.size() && kept_[next] == k) {
+      ++next;
+      add_corner(corner);
+      continue;
+    }
+    // Behind the last corner it may be the first that comes again.
+    const bool repeats_last = corners_[kept_[next - 1]].vertex == corner.vertex;
+    const int same = repeats_last ? first + static_cast<int>(next) - 1 : first;
+    obj_.uv_references.push_back({corner.uv_text, corner.uv, same});
+    ++obj_.repeats[same];
+  }
+  obj_.atlas.face_offsets.push_back(obj_.atlas.corner_count());
 }
 
 void ObjParser::add_corner(const Corner& corner) {
+  const int line = obj_.face_records.back().line;
   if (obj_.atlas.corner_vertices.size() >= static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    scanner_.fail("more face corners than this program can count");
+    scanner_.fail_at(line, "more face corners than this program can count");
   if (corner.normal > highest_normal_) {
     highest_normal_ = corner.normal;
-    line_of_highest_normal_ = scanner_.line();
+    line_of_highest_normal_ = line;
   }
-  if (corner.uv >= 0) obj_.uv_references.push_back({corner.uv_text, corner.uv, obj_.atlas.corner_count()});
+  obj_.uv_references.push_back({corner.uv_text, corner.uv, obj_.atlas.corner_count()});
   obj_.atlas.corner_vertices.push_back(corner.vertex);
   obj_.corner_normals.push_back(corner.normal);
 }
 
-// Line and point elements keep their text; only where records are renumbered or moved their indices must follow.
+// What is not in the atlas keeps its text; only where records are renumbered or moved its indices must follow.
+void ObjParser::add_element(const Corner& corner) {
+  if (corner.uv >= 0) obj_.uv_references.push_back({corner.uv_text, corner.uv, -1});
+  obj_.element_references.push_back({corner.vertex_text, corner.vertex});
+  if (corner.normal >= 0) obj_.element_references.push_back({corner.normal_text, corner.normal});
+}
+
 void ObjParser::read_line_element() {
-  for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token()) {
-    const Corner c = corner(token);
-    if (c.uv >= 0) obj_.uv_references.push_back({c.uv_text, c.uv, -1});
-    obj_.vertex_references.push_back({c.vertex_text, c.vertex});
-  }
+  for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token()) add_element(corner(token));
   scanner_.skip_logical_line();
 }
 
@@ -189,7 +246,7 @@ void ObjParser::read_point_element() {
     int value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool relative = error == std::errc() && end == text.data() + text.size() && value < 0 && value >= -count;
-    if (relative) obj_.vertex_references.push_back({token, count + value});
+    if (relative) obj_.element_references.push_back({token, count + value});
   }
   scanner_.skip_logical_line();
 }
@@ -197,41 +254,43 @@ void ObjParser::read_point_element() {
 // Positive indices may name records that follow, so they are checked at the end.
 void ObjParser::check_indices() const {
   const Atlas& atlas = obj_.atlas;
-  if (atlas.face_count() == 0) throw RefineError(ErrorCode::BadInput, "read", "has no faces");
-  if (!any_uvs_) throw RefineError(ErrorCode::BadInput, "read", "has no UVs: no face corner names a vt record");
-  if (const int face = first_face_without_uvs_; face >= 0)
-    scanner_.fail_at(obj_.face_records[face].line, "face " + std::to_string(face) + " has no UVs, other faces have");
+  const auto refuse = [](const char* what) { throw RefineError(ErrorCode::BadInput, "read", what); };
+  if (obj_.face_count == 0) refuse("has no faces");
+  if (obj_.left_out_without_uvs.count + obj_.left_out_degenerate.count == obj_.face_count) {
+    refuse(obj_.left_out_without_uvs.count > 0 ? "has no UVs: no face has a vt index at each of its corners"
+                                               : "has no faces of three different vertices");
+  }
+  if (atlas.face_count() == 0 && obj_.left_out_infinite.count > 0) refuse_infinite_uv();
+  if (atlas.face_count() == 0) refuse("has no faces with UVs that come to each of their vertices once");
   if (highest_normal_ >= static_cast<int>(obj_.normal_records.size()))
     scanner_.fail_at(line_of_highest_normal_, "normal index " + std::to_string(highest_normal_ + 1) +
                                                   " is out of range, the file has " + std::to_string(obj_.normal_records.size()) +
                                                   " normals");
-  std::vector<int> face_seen_at_vertex(atlas.positions.size(), -1);
-  for (int face = 0; face < atlas.face_count(); ++face) check_face(face, face_seen_at_vertex);
-  for (const ObjText::UvReference& reference : obj_.uv_references) {
-    if (reference.record < static_cast<int>(obj_.uv_records.size())) continue;
-    const auto after = std::upper_bound(atlas.face_offsets.begin(), atlas.face_offsets.end(), reference.corner);
-    const int face = static_cast<int>(after - atlas.face_offsets.begin()) - 1;
-    const std::string where = reference.corner < 0 ? "a line element: " : "face " + std::to_string(face) + ": ";
-    const std::string what = where + "UV index " + std::to_string(reference.record + 1) + " is out of range, the file has " +
-                             std::to_string(obj_.uv_records.size()) + " UVs";
-    if (reference.corner < 0) throw RefineError(ErrorCode::BadInput, "read", what);
-    scanner_.fail_at(obj_.face_records[face].line, what);
+  for (int face = 0; face < atlas.face_count(); ++face) check_vertices(face);
+  for (const ObjText::UvReference& reference : obj_.uv_references) check_uv(reference);
+}
+
+void ObjParser::check_vertices(int face) const {
+  const Atlas& atlas = obj_.atlas;
+  for (int k = atlas.face_offsets[face]; k < atlas.face_offsets[face + 1]; ++k) {
+    if (const int vertex = atlas.corner_vertices[k]; vertex >= static_cast<int>(atlas.positions.size()))
+      scanner_.fail_at(obj_.face_records[face].line, "face " + std::to_string(obj_.face_records[face].number) + ": vertex " +
+                                                         std::to_string(vertex + 1) + " is out of range, the file has " +
+                                                         std::to_string(atlas.positions.size()) + " vertices");
   }
 }
 
-void ObjParser::check_face(int face, std::vector<int>& face_seen_at_vertex) const {
-  const Atlas& atlas = obj_.atlas;
-  for (int k = atlas.face_offsets[face]; k < atlas.face_offsets[face + 1]; ++k) {
-    const int vertex = atlas.corner_vertices[k];
-    const auto complain = [&](const std::string& what) {
-      scanner_.fail_at(obj_.face_records[face].line,
-                       "face " + std::to_string(face) + ": vertex " + std::to_string(vertex + 1) + what);
-    };
-    if (vertex >= static_cast<int>(atlas.positions.size()))
-      complain(" is out of range, the file has " + std::to_string(atlas.positions.size()) + " vertices");
-    if (face_seen_at_vertex[vertex] == face) complain(" is used twice");
-    face_seen_at_vertex[vertex] = face;
-  }
+void ObjParser::check_uv(const ObjText::UvReference& reference) const {
+  // A face before its vt records is not left out.
+  if (reference.corner >= 0 && is_infinite(reference.record)) refuse_infinite_uv();
+  if (reference.record < static_cast<int>(obj_.uv_records.size())) return;
+  const std::string what = "UV index " + std::to_string(reference.record + 1) + " is out of range, the file has " +
+                           std::to_string(obj_.uv_records.size()) + " UVs";
+  if (reference.corner < 0) throw RefineError(ErrorCode::BadInput, "read", "a line element or a face that is left out: " + what);
+  const auto& offsets = obj_.atlas.face_offsets;
+  const auto after = std::upper_bound(offsets.begin(), offsets.end(), reference.corner);
+  const ObjText::FaceRecord& face = obj_.face_records[after - offsets.begin() - 1];
+  scanner_.fail_at(face.line, "face " + std::to_string(face.number) + ": " + what);
 }
 
 ObjParser::Corner ObjParser::corner(Span token) const {
@@ -245,7 +304,8 @@ ObjParser::Corner ObjParser::corner(Span token) const {
   result.uv_text = {token.begin + slash1 + 1, token.begin + slash2};
   if (const auto uv = obj_.view(result.uv_text); !uv.empty()) result.uv = index(uv, token, obj_.uv_records.size());
   if (slash2 == text.size()) return result;
-  if (const auto normal = text.substr(slash2 + 1); !normal.empty())
+  result.normal_text = {token.begin + slash2 + 1, token.end};
+  if (const auto normal = obj_.view(result.normal_text); !normal.empty())
     result.normal = index(normal, token, obj_.normal_records.size());
   return result;
 }

@@ -8,6 +8,7 @@ namespace atlas_refine::io {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 }  // namespace
 
@@ -19,11 +20,15 @@ void ObjScanner::skip_indent() {
   while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
 }
 
+// A comment may follow a number without a blank; "1.#IND" is none of them.
 ObjText::Span ObjScanner::next_token() {
   skip_blanks();
   ObjText::Span token{at_, at_};
   if (at_ < text_.size() && text_[at_] == '#') return token;
-  while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '\n' && text_[at_] != '\r' && !continues_at(at_)) ++at_;
+  const auto ends_here = [&](char c) {
+    return is_blank(c) || c == '\n' || c == '\r' || continuation_length(at_) > 0 || (c == '#' && is_digit(text_[at_ - 1]));
+  };
+  while (at_ < text_.size() && !ends_here(text_[at_])) ++at_;
   token.end = at_;
   return token;
 }
@@ -32,8 +37,8 @@ void ObjScanner::skip_blanks() {
   while (at_ < text_.size()) {
     if (is_blank(text_[at_])) {
       ++at_;
-    } else if (continues_at(at_)) {
-      at_ += 1 + line_end_length(at_ + 1);
+    } else if (const std::size_t length = continuation_length(at_); length > 0) {
+      at_ += length;
       ++line_;
     } else {
       return;
@@ -43,7 +48,7 @@ void ObjScanner::skip_blanks() {
 
 void ObjScanner::skip_logical_line() {
   while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') {
-    if (continues_at(at_)) {
+    if (continuation_length(at_) > 0) {
       skip_blanks();
     } else {
       ++at_;
@@ -66,8 +71,15 @@ std::size_t ObjScanner::line_end_length(std::size_t at) const {
   return at + 1 < text_.size() && text_[at + 1] == '\n' ? 2 : 1;
 }
 
-// Whether a backslash here joins the next line to this one.
-bool ObjScanner::continues_at(std::size_t at) const { return text_[at] == '\\' && line_end_length(at + 1) > 0; }
+// A backslash that joins the next line to this one, with the line end and blanks between the two; 0 where there is none here.
+std::size_t ObjScanner::continuation_length(std::size_t at) const {
+  if (text_[at] != '\\') return 0;
+  std::size_t end = at + 1;
+  while (end < text_.size() && is_blank(text_[end])) ++end;
+  if (end == text_.size()) return end - at;
+  const std::size_t line_end = line_end_length(end);
+  return line_end > 0 ? end + line_end - at : 0;
+}
 
 void ObjScanner::fail_at(int line, const std::string& what) {
   throw RefineError(ErrorCode::BadInput, "read", "line " + std::to_string(line) + ": " + what);

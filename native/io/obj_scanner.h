@@ -31,7 +31,7 @@ class ObjScanner {
  private:
   void skip_blanks();
   std::size_t line_end_length(std::size_t at) const;
-  bool continues_at(std::size_t at) const;
+  std::size_t continuation_length(std::size_t at) const;
 
   std::string_view text_;
   std::size_t at_ = 0;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "atlas_refine/atlas.h"
@@ -16,7 +17,7 @@ struct ObjText {
     std::size_t begin = 0;
     std::size_t end = 0;
   };
-  /// A v record, and the numbers behind its position (w, a colour): extras[first_extra] and the following.
+  /// A v record, and the numbers behind its position (w, a colour): extras[first_extra] and the following. One is w.
   struct PositionRecord {
     Span whole;
     int first_extra = 0;
@@ -27,16 +28,17 @@ struct ObjText {
     Span whole;
     Vec3 value;
   };
-  /// An f record: its whole line or lines with the line end, and what stands behind its last corner.
+  /// An f record whose face is in the atlas: its whole line or lines with the line end, and what stands behind its last corner.
   struct FaceRecord {
-    int line = 0;  ///< 1-based, on which it starts
+    int line = 0;    ///< 1-based, on which it starts
+    int number = 0;  ///< 0-based, among all f records
     Span whole;
     Span tail;
   };
-  /// Where a point of a line or point element names a v record.
-  struct VertexReference {
+  /// Where an element that is not in the atlas (a line, a point, a face left out) names a v or vn record.
+  struct ElementReference {
     Span text;
-    int vertex = -1;
+    int record = -1;
   };
   /// Where a vt record lies: its whole line or lines with the line end, and its first two numbers (v empty where not written).
   struct UvRecord {
@@ -45,17 +47,26 @@ struct ObjText {
     Span v;
     Vec2 value;
   };
-  /// Where a face corner or a point of a line element names a vt record.
+  /// Where a face corner or a point of a line element names a vt record. Of several for one corner, which its face names several
+  /// times in a row, the first has its UV.
   struct UvReference {
     Span text;
     int record = -1;
-    int corner = -1;  ///< -1: not a face's
+    int corner = -1;  ///< -1: of an element that is not in the atlas
+  };
+  /// What is read in another way than it is written: of how many f records, and the line of the first.
+  struct Remark {
+    int count = 0;
+    int first_line = 0;
+    void add(int line) {
+      if (count++ == 0) first_line = line;
+    }
   };
 
   std::string_view view(Span span) const { return std::string_view(text).substr(span.begin, span.end - span.begin); }
 
   std::string text;
-  Atlas atlas;
+  Atlas atlas;  ///< of the faces that are not left out
   std::vector<UvRecord> uv_records;
   std::vector<UvReference> uv_references;  ///< in the file's order
   std::vector<PositionRecord> position_records;
@@ -63,7 +74,14 @@ struct ObjText {
   std::vector<NormalRecord> normal_records;
   std::vector<FaceRecord> face_records;
   std::vector<int> corner_normals;  ///< index into normal_records, -1 where the corner names none
-  std::vector<VertexReference> vertex_references;
+  std::vector<ElementReference> element_references;
+  std::unordered_map<int, int> repeats;  ///< by corner: how often its face names it again right behind itself
+  int face_count = 0;                    ///< of all f records
+  Remark with_repeats;
+  Remark left_out_degenerate;  ///< fewer than three different vertices
+  Remark left_out_without_uvs;
+  Remark left_out_infinite;    ///< a UV is not finite
+  Remark left_out_revisiting;  ///< a vertex comes twice, and not in a row
 };
 
 }  // namespace atlas_refine::io

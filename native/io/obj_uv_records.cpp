@@ -34,7 +34,8 @@ void write_uv_records(const ObjText& obj, int record, const UvRecords& records, 
     const Vec2& uv = records.values[i];
     const bool ends_in_mid_line = i > records.first[record] && out.back() != '\n' && out.back() != '\r';
     if (ends_in_mid_line) out += '\n';
-    if (uv == old.value) {
+    // What is not finite is no corner's.
+    if (uv == old.value || !old.value.allFinite()) {
       out.append(obj.text, old.whole.begin, old.whole.end - old.whole.begin);
       continue;
     }

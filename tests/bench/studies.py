@@ -137,7 +137,7 @@ class Study:
         row = Row("", label, goal.name, goal.seams, sum(map(count_triangles, meshes)))
         figures = Figures(label, setting, row.triangles)
         with tempfile.TemporaryDirectory(prefix="atlas-refine-bench-") as scratch:
-            output = Path(scratch) / "out"
+            output = Path(scratch) / ("out.obj" if len(meshes) == 1 else "out")
             run = refine(self.program, meshes, output, goal)
             if run.done:
                 outputs = [output] if len(meshes) == 1 else [output / mesh.name for mesh in meshes]

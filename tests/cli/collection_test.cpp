@@ -110,6 +110,23 @@ TEST_F(ThreeModels, AFileThatCannotBeUsedIsNamed) {
   EXPECT_EQ(collection_.file_count(), 3);
 }
 
+TEST_F(Files, FacesAreCountedInTheirFileWithThoseLeftOut) {
+  const std::string model = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1 2 3\nf 1/1 2/1 3/1\n";
+  Collection collection;
+  collection.add(write("a.obj", model));
+  collection.add(write("b.obj", model + "f 2/1 1/1 3/1\n"));
+  EXPECT_EQ(collection.atlas().face_count(), 3);
+  EXPECT_EQ(collection.face_count(), 5);
+  EXPECT_EQ(collection.of_atlas({1, 2, 3, 4, 5}), (std::vector<double>{2, 4, 5}));
+  EXPECT_EQ(collection.notes()[1], (folder_ / "b.obj").string() + ": 1 face has corners without UVs and is left out (line 5)");
+  EXPECT_EQ(collection.place_of_face(2), (folder_ / "b.obj").string() + ": line 7");
+  EXPECT_EQ(collection.number_in_file(-1), -1);
+  EXPECT_EQ(collection.number_in_file(1), 1);
+  EXPECT_EQ(collection.words_in_file("face 0 of chart 0 is flipped", 0), "face 1 of chart 0 is flipped");
+  EXPECT_EQ(collection.words_in_file("face 01 is flipped", 0), "face 01 is flipped");
+  EXPECT_EQ(collection.words_in_file("a box without area", -1), "a box without area");
+}
+
 TEST_F(Files, AppearTogether) {
   write("old", "before");
   {

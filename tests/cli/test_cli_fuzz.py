@@ -60,7 +60,7 @@ def mutant(seed):
 def test_damaged_files_never_crash(program, tmp_path, job):
     def run(seed):
         name, text = mutant(seed)
-        path, target = tmp_path / f"{seed}.obj", tmp_path / f"{seed}.out"
+        path, target = tmp_path / f"{seed}.obj", tmp_path / f"{seed}.out.obj"
         path.write_text(text)
         result = program(*jobs(path, target)[job])
         case = f"seed {seed}, {name}: exit {result.returncode}, {result.stderr.decode(errors='replace')}"

@@ -1,5 +1,7 @@
 """Bad input and bad usage: one clear line, the right exit code, nothing written, an old output left as it was."""
 
+import gzip
+import json
 import os
 import re
 
@@ -16,15 +18,14 @@ BAD_FILES = {
     "binary": ("\x89PNG\r\n\x1a\n\x00\x01\x02", "has no faces"),
     "no UVs": (QUAD + "f 1 2 3 4\n", "has no UVs"),
     "no UVs, normals": (QUAD + "vn 0 0 1\nf 1//1 2//1 3//1\n", "has no UVs"),
-    "some faces without UVs": (QUAD + FACE + "f 1 2 3\n", "line 10: face 1 has no UVs"),
-    "some corners without UVs": (QUAD + "f 1/1 2/2 3\n", "line 9: face 0: corner '3'"),
-    "mixed corners": (QUAD + "vn 0 0 1\nf 1/1/1 2/2/1 3/3\n", "line 10: face 0: corner '3/3'"),
+    "no face with UVs at all corners": (QUAD + "f 1/1 2/2 3\n", "has no UVs: no face has a vt index at each of its corners"),
     "NaN position": (QUAD.replace("v 1 1 0", "v 1 nan 0") + FACE, "line 3: a vertex position that is not finite"),
     "infinite position": (QUAD.replace("v 1 1 0", "v 1 -inf 0") + FACE, "line 3: a vertex position that is not finite"),
     "huge position": (QUAD.replace("v 1 1 0", "v 1 1e999 0") + FACE, "line 3: a vertex position that is not finite"),
     "NaN UV": (QUAD.replace("vt 1 0", "vt NaN 0") + FACE, "line 6: a UV that is not finite"),
     "infinite UV": (QUAD.replace("vt 1 0", "vt 1 inf") + FACE, "line 6: a UV that is not finite"),
     "text for a number": (QUAD.replace("v 1 1 0", "v 1 one 0") + FACE, "line 3: 'one' is not a number"),
+    "no number of a Windows program": (QUAD.replace("vt 1 0", "vt 1.#QNAN 0") + FACE, "line 6: '1.#QNAN' is not a number"),
     "decimal comma": (QUAD.replace("vt 1 0", "vt 1,0 0") + FACE, "line 6: '1,0' is not a number"),
     "short position": (QUAD.replace("v 1 1 0", "v 1 1") + FACE, "line 3: a vertex position with too few numbers"),
     "vt without numbers": (QUAD.replace("vt 1 0", "vt") + FACE, "line 6: a vt record without a number"),
@@ -36,10 +37,10 @@ BAD_FILES = {
     "enormous index": (QUAD + "f 1/1 2/2 99999999999999999999/3\n", "line 9: index out of range"),
     "garbage corner": (QUAD + "f 1/1 2/2 x/3\n", "line 9: 'x/3' is not a face corner"),
     "fractional corner": (QUAD + "f 1/1 2/2 3.5/3\n", "line 9: '3.5/3' is not a face corner"),
-    "two corners": (QUAD + FACE + "f 1/1 2/2\n", "line 10: face 1 has 2 corners"),
-    "no corners": (QUAD + FACE + "f\n", "line 10: face 1 has 0 corners"),
-    "vertex used twice": (QUAD + "f 1/1 2/2 1/3\n", "line 9: face 0: vertex 1 is used twice"),
-    "cut in a face": (grid(4)[: grid(4).rindex("f ") + 8], "corner"),
+    "only two corners": (QUAD + "f 1/1 2/2\nf\n", "has no faces of three different vertices"),
+    "only two vertices": (QUAD + "f 1/1 2/2 1/3\n", "has no faces of three different vertices"),
+    "only a keyhole": (QUAD + "f 1/1 2/2 3/3 1/1 4/4\n", "has no faces with UVs that come to each of their vertices once"),
+    "face left out before the bad one": (QUAD + "f 1 2 3\nf 1/1 2/2 9/3\n", "line 10: face 1: vertex 9"),
     "cut before the faces": (grid(4)[: grid(4).index("f ")], "has no faces"),
     "line numbers after continuations": (QUAD + "f 1/1 \\\n2/2 \\\n3/3\nf 1/1 2/2 9/3\n", "line 12: face 1: vertex 9"),
     "line numbers in a CRLF file": ((QUAD + "f 1/1 2/2 x/3\n").replace("\n", "\r\n"), "line 9: 'x/3'"),
@@ -82,6 +83,52 @@ def test_missing_file_and_folder(program, tmp_path, old_output, job):
         assert program.refused(3, *arguments) == f"atlas-refine: {tmp_path / name}: " + (
             expected if name != "folder" else "is a directory, not an OBJ file"
         )
+
+
+FOREIGN_FILES = {
+    "glTF": (b'{"asset":{"version":"2.0"},"meshes":[]}', "a glTF file"),
+    "JSON": (b'\n{"v": 1}', "a JSON file"),
+    "GLB": (b"glTF\x02" + bytes(60), "a binary glTF (GLB) file"),
+    "PLY": (b"ply\nformat ascii 1.0\nelement vertex 3\n", "a PLY file"),
+    "gzip": (gzip.compress((QUAD + FACE).encode()), "a gzip file"),
+    "UTF-16": ((QUAD + FACE).encode("utf-16"), "a UTF-16 file"),
+    "UTF-16 without a mark": ((QUAD + FACE).encode("utf-16-le"), "a UTF-16 file"),
+    "big-endian UTF-16": ((QUAD + FACE).encode("utf-16-be"), "a UTF-16 file"),
+    "binary FBX": (b"Kaydara FBX Binary  \x00\x1a\x00" + bytes(40), "an FBX file"),
+    "ASCII FBX": (b"; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n}\n", "an FBX file"),
+    "binary STL": (b"solid by name only".ljust(80) + b"\x02\0\0\0" + bytes(100), "an STL file"),
+    "ASCII STL": (b"solid cube\n facet normal 0 0 1\n  outer loop\n", "an STL file"),
+    "ASCII USD": (b"#usda 1.0\n(\n)\n", "a USD file"),
+    "USD crate": (b"PXR-USDC" + bytes(40), "a USD file"),
+    "USDZ": (b"PK\x03\x04" + bytes(26) + b"model.usdc", "a USD file"),
+    "zip": (b"PK\x03\x04" + bytes(26) + b"model.obj", "a zip file"),
+    "COLLADA": (b'<?xml version="1.0"?>\n<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema">', "a COLLADA file"),
+}
+
+
+@pytest.mark.parametrize("case", FOREIGN_FILES)
+def test_file_of_another_format_is_named_for_what_it_is(program, tmp_path, old_output, case):
+    content, kind = FOREIGN_FILES[case]
+    path = tmp_path / "in.obj"
+    path.write_bytes(content)
+    assert program.refused(3, path, "-o", old_output) == f"atlas-refine: {path}: is {kind}, not an OBJ file"
+
+
+@pytest.mark.parametrize("name", ["out.glb", "out.ply", "out.obj.gz", "out"])
+def test_output_of_an_unknown_format_is_refused_before_anything_is_read(program, tmp_path, name):
+    message = program.refused(2, tmp_path / "not_there.obj", "-o", tmp_path / name)
+    assert message == f"atlas-refine: {tmp_path / name}: has an unknown format; OBJ files can be written, NAME.obj"
+    assert not any(tmp_path.iterdir())
+
+
+def test_a_face_is_named_as_in_its_file(program, tmp_path):
+    path = tmp_path / "in.obj"
+    path.write_text(QUAD + "f 1 2 3\nf 1/1 2/2 3/3\nf 1/1 3/3 3/3 4/1\n")
+    run = program("measure", path)
+    assert run.returncode == 1
+    assert b"no: face 2 of chart 0 has no area in the UV map" in run.stdout
+    assert b"warning: 1 face has corners without UVs and is left out (line 9)" in run.stdout
+    assert json.loads(program("measure", path, "--json").stdout)["validity"]["face"] == 2
 
 
 RECTANGLES = ["--seams", "rectangles"]

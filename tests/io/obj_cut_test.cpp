@@ -126,6 +126,31 @@ TEST(ObjCut, RecordsBehindTheFirstFaceMoveBeforeItAndIndicesBecomeAbsolute) {
   EXPECT_EQ(ObjFile::parse(out).atlas().corner_uvs, uvs);
 }
 
+TEST(ObjCut, FacesThatAreNotInTheAtlasKeepTheirTextWithAbsoluteIndices) {
+  const ObjFile file = ObjFile::parse(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nvt 0 0\nf 1//-1  2//1 -1//-1 # none\nf 1/1 2/1 2/1 3/1\nv 9 9 9\nvn 1 0 0\n"
+      "f -1/1/-1 1/1/-2\nf 3/1 2/1 2/1 1/1 # last\n");
+  const CutMesh cut = cut_of({0, 0, 1}, {{0, 4, 2}, {4, 1, 2}, {2, 1, 0}}, {{{0, 1, 2}, Vec3(0.5, 0.5, 0)}});
+  EXPECT_EQ(with_cut(file, cut, std::vector<Vec2>(9, Vec2(0, 0))),
+            "v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nvt 0 0\nf 1//1  2//1 3//1 # none\n"
+            "v 9 9 9\nv 0.5 0 0\nvt 0 0\nvn 1 0 0\n"
+            "f 1/1 5/2 3/1\nf 5/2 2/1 3/1\nf 4/1/2 1/1/1\nf 3/1 2/1 2/1 1/1 # last\n");
+}
+
+TEST(ObjCut, NormalsThatSomeCornersLackAreNotInvented) {
+  const ObjFile file = ObjFile::parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nvt 0 0\nf 1/1/1 2/1 3/1/1\n");
+  const CutMesh cut = cut_of({0, 0}, {{0, 3, 2}, {3, 1, 2}}, {{{0, 1, 2}, Vec3(0.25, 0.75, 0)}});
+  const std::string out = with_cut(file, cut, std::vector<Vec2>(6, Vec2(0, 0)));
+  EXPECT_TRUE(out.ends_with("f 1/1/1 4/2 3/1/1\nf 4/2 2/1 3/1/1\n")) << out;
+}
+
+TEST(ObjCut, AHomogeneousPositionIsTheMeanInSpace) {
+  const ObjFile file = ObjFile::parse("v 2 0 0 2\nv 2 0 0 1\nv 1 1 0 1\nvt 0 0\nf 1/1 2/1 3/1\n");
+  const CutMesh cut = cut_of({0, 0}, {{0, 3, 2}, {3, 1, 2}}, {{{0, 1, 2}, Vec3(0.5, 0.5, 0)}});
+  const std::string out = with_cut(file, cut, std::vector<Vec2>(6, Vec2(0, 0)));
+  EXPECT_NE(out.find("\nv 1.5 0 0 1\n"), std::string::npos) << out;
+}
+
 TEST(ObjCut, LastFaceWithoutLineEnd) {
   const ObjFile file = ObjFile::parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1");
   const CutMesh cut = cut_of({0, 0}, {{0, 3, 2}, {3, 1, 2}}, {{{0, 1, 2}, Vec3(0.5, 0.5, 0)}});
