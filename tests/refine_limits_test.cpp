@@ -72,33 +72,6 @@ TEST(Limits, TheRoadThatCutsSaysThatItMissedTheLimit) {
   EXPECT_TRUE(fell_back(result, "largest allowed") || fell_back(result, "do not reach the bound"));
 }
 
-TEST(Limits, WhereTheSqueezeIsBetterTheReportOfTheCutSaysSo) {
-  // Two bent bands that pack well once they are straightened a little: cutting them buys nothing.
-  const Atlas atlas = shapes::combine(
-      {shapes::mesh(shapes::c_shape(), 0.06), shapes::mesh(shapes::transformed(shapes::u_shape(), 1, 0, {2, 0}), 0.06)});
-  int told = 0, checked = 0;
-  for (const double bound : {0.7, 0.8, 0.9}) {
-    RefineOptions options{.pe_bound = bound, .seams = Seams::Rectangles};
-    const RefineResult cut = refine(atlas, options);
-    if (cut.intervention != Intervention::Cut) continue;
-    const bool says = std::any_of(cut.warnings.begin(), cut.warnings.end(),
-                                  [](const std::string& line) { return line.starts_with("without cuts"); });
-    options.seams = Seams::None;
-    const RefineResult whole = refine(atlas, options);
-    // The comparison squeezes from one start only: it may miss a little, but what it says is true.
-    if (says) {
-      EXPECT_LT(whole.after.distortion, cut.after.distortion + 1e-4);
-    }
-    if (whole.after.distortion > cut.after.distortion) {
-      EXPECT_FALSE(says);
-    }
-    told += says;
-    ++checked;
-  }
-  EXPECT_GT(checked, 0);
-  EXPECT_LE(told, checked);
-}
-
 TEST(Limits, ChartsThatAreBoxedAndOverlapThemselvesAreEmbeddedFirst) {
   // Three triangles of 150 degrees round one vertex: too few to be aligned, and lying on each other.
   Atlas fan;

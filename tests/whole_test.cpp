@@ -1,0 +1,36 @@
+// What cuts are compared with: the distortion that the charts would have without them.
+#include "whole.h"
+
+#include <gtest/gtest.h>
+
+#include "atlas_refine/refine.h"
+#include "shapes.h"
+
+namespace atlas_refine {
+namespace {
+
+std::optional<double> without_cuts(const Atlas& atlas, double pe_bound, double most) {
+  const RefineOptions options{.pe_bound = pe_bound};
+  const InputAtlas input = read_atlas(atlas, options.box_aspect);
+  Monitor monitor;
+  Journal journal(monitor, nullptr, options.box_aspect);
+  return distortion_without_cuts({input, options, monitor, journal, 1}, most);
+}
+
+TEST(WithoutCuts, IsWhatTheSqueezeComesTo) {
+  for (const double bound : {0.7, 0.85}) {
+    const Atlas atlas = shapes::mesh(shapes::s_shape(), 0.08);
+    const double squeezed = refine(atlas, {.pe_bound = bound}).after.distortion;
+    const auto told = without_cuts(atlas, bound, 2);
+    ASSERT_TRUE(told);
+    EXPECT_NEAR(*told, squeezed, 0.1 * (squeezed - 1));
+    // Asked for clearly less than there is: nothing.
+    EXPECT_FALSE(without_cuts(atlas, bound, 1 + 0.7 * (squeezed - 1)));
+    EXPECT_TRUE(without_cuts(atlas, bound, 1 + 1.3 * (squeezed - 1)));
+  }
+}
+
+TEST(WithoutCuts, ChartsThatOverlapThemselvesAreNotCompared) { EXPECT_FALSE(without_cuts(shapes::self_overlapping(), 0.7, 100)); }
+
+}  // namespace
+}  // namespace atlas_refine
