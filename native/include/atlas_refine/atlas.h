@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct Atlas {
   std::vector<int> face_offsets;     ///< faces + 1 entries, starting with 0; every face has at least 3 corners
   std::vector<int> corner_vertices;  ///< one per corner: index into positions
   std::vector<Vec2> corner_uvs;      ///< one per corner, UV units
+  /// Optional: how the consumer divides faces of more than three corners, as triples of corners of one face, any order of
+  /// faces. Faces that are not named are divided here: a fan from the first corner where that is valid, else by ears.
+  std::vector<std::array<int, 3>> triangles = {};
 
   int face_count() const { return face_offsets.empty() ? 0 : static_cast<int>(face_offsets.size()) - 1; }
   int corner_count() const { return static_cast<int>(corner_vertices.size()); }

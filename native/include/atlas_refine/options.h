@@ -1,6 +1,7 @@
 // What one call of refine() is asked for. Defaults are what an unattended run should use.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -21,6 +22,21 @@ enum class Reference { Surface, Input };
 /// Keep: the objective asks each chart to keep the scale it has in the input. Charts that bend may change it all the same; a
 /// warning names those whose texel density changed by more than 10 %.
 enum class Density { Equal, Keep };
+
+/// How cuts run. Split: faces are divided where the cut crosses them. Edges: only edges of the input's faces become seams, the
+/// connectivity stays exactly (section 4.1, Fig. 16).
+enum class Cut { Split, Edges };
+
+/// Charts that lie on each other on purpose (the same or the mirrored shape, UVs equal within 1e-4 of the UV box). Keep: one of
+/// them is refined, the others follow it onto the same place, and PE counts their area once. Separate: each gets its own place.
+enum class Stacks { Keep, Separate };
+
+/// Charts whose UVs are all on a point or a line (palette swatches, unused UVs). Leave: they stay as they are, outside the atlas.
+/// Embed: they get UVs with area.
+enum class Collapsed { Leave, Embed };
+
+/// Which turns a chart that is moved without being bent may get.
+enum class Rotate { Any, QuarterTurns, None };
 
 /// The number format the caller will store; the certificate is made on values rounded to it.
 enum class Stored { Double, Float32 };
@@ -64,6 +80,29 @@ struct RefineOptions {
   Reference reference = Reference::Surface;
   /// One weight > 0 per face for its part in the objective (section 4, "Local control"); empty = all 1. Only ratios count.
   std::vector<double> importance;
+
+  Cut cut = Cut::Split;  ///< of all cuts: rectangles, holes, closed charts
+  /// Charts without a boundary, or with a handle, may be opened along edges where seams are None too: they cannot be flat
+  /// otherwise, and are refused by name.
+  bool open_closed = false;
+  Stacks stacks = Stacks::Keep;
+  Collapsed collapsed = Collapsed::Leave;
+  Rotate rotate = Rotate::Any;
+  bool align_axes = false;   ///< a moved chart whose longest border runs straight is turned so that it lies on an axis
+  bool triangulate = false;  ///< of cut faces: triangles throughout, no larger polygons
+
+  /// One number per face: the atlas that the face belongs to; faces of different numbers never share a chart, and each number
+  /// gets a box of its own at the same place. Empty = one atlas.
+  std::vector<int> groups;
+  /// One flag per face, or empty. A chart with a face that is set is only moved: its UVs stay the same shape, to rounding, up to
+  /// the scale that `density` gives it.
+  std::vector<char> keep_shape;
+  /// One flag per face, or empty. A chart with a face that is set keeps its UVs, bit for bit; all others go around it. The box is
+  /// then [0, 1]^2 (of the texture's shape).
+  std::vector<char> locked;
+  std::vector<std::array<int, 2>> no_seam;      ///< edges, as pairs of vertices, that no cut runs along or across
+  std::vector<std::array<int, 2>> prefer_seam;  ///< edges that cuts along edges run along for a tenth of their length's price
+
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0 = as many as the machine has; the result does not depend on it
 };
