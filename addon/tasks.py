@@ -57,7 +57,7 @@ class Task:
     def warnings(self, result):
         if self.uneven_scale:
             yield "the object's scale is uneven; the UVs follow the mesh without it"
-        yield from result.repairs
+        yield from (repair.text for repair in result.repairs)
         yield from result.fallbacks
         yield from result.warnings
 

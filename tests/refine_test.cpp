@@ -131,7 +131,7 @@ TEST(Refine, MirroredChartsAreTurnedAndReported) {
   EXPECT_FALSE(result.charts[0].mirrored);
   EXPECT_TRUE(result.charts[1].mirrored);
   ASSERT_EQ(result.repairs.size(), 1u);
-  EXPECT_NE(result.repairs[0].find("chart 1"), std::string::npos);
+  EXPECT_NE(describe(result.repairs[0]).find("chart 1"), std::string::npos);
 }
 
 TEST(Refine, AMirroredChartAtTheBoundIsOnlyMoved) {
@@ -146,7 +146,7 @@ TEST(Refine, AChartThatOverlapsItselfIsEmbeddedAnewAndReported) {
   const RefineResult result = refine_soundly(atlas, {});
   EXPECT_TRUE(result.charts[0].re_embedded);
   ASSERT_EQ(result.repairs.size(), 1u);
-  EXPECT_NE(result.repairs[0].find("chart 0"), std::string::npos);
+  EXPECT_NE(describe(result.repairs[0]).find("chart 0"), std::string::npos);
 }
 
 TEST(Refine, ChartsThatTouchOrLieOnEachOtherAreSeparated) {

@@ -23,7 +23,8 @@ LEVELS = [
     ["report"],
     ["rectangle_pictures"],
     ["rectangles", "whole"],
-    ["refine"],
+    ["one_atlas"],
+    ["refine", "group_by_tile"],
 ]
 # Libraries that live in one place and nowhere else.
 HOMES = {

@@ -169,6 +169,9 @@ void bind_chart_reports(py::module_& module) {
       .field("area", &ChartReport::area)
       .field("mirrored", &ChartReport::mirrored)
       .field("re_embedded", &ChartReport::re_embedded)
+      .property("fate", [](const ChartReport& c) { return to_string(c.fate); })
+      .field("reason", &ChartReport::reason)
+      .field("stacked_on", &ChartReport::stacked_on)
       .field("distortion_before", &ChartReport::distortion_before)
       .field("distortion_after", &ChartReport::distortion_after)
       .field("stretch_max", &ChartReport::stretch_max)
@@ -180,6 +183,23 @@ void bind_chart_reports(py::module_& module) {
       .field("area", &PieceReport::area)
       .field("distortion", &PieceReport::distortion)
       .field("stretch_max", &PieceReport::stretch_max);
+}
+
+void bind_repairs_and_groups(py::module_& module) {
+  ValueClass<Repair>(module, "Repair", "What was mended in charts before they were refined.")
+      .field("what", &Repair::what)
+      .field("charts", &Repair::charts)
+      .field("faces", &Repair::faces)
+      .field("distortion_to_input", &Repair::distortion_to_input)
+      .property("text", [](const Repair& repair) { return describe(repair); });
+  ValueClass<GroupReport>(module, "GroupReport", "One atlas of several.")
+      .field("group", &GroupReport::group)
+      .field("charts", &GroupReport::charts)
+      .property("intervention", [](const GroupReport& group) { return to_string(group.intervention); })
+      .field("bound_met", &GroupReport::bound_met)
+      .field("before", &GroupReport::before)
+      .field("after", &GroupReport::after)
+      .field("gap", &GroupReport::gap);
 }
 
 void bind_refine_result(py::module_& module) {
@@ -197,6 +217,7 @@ void bind_refine_result(py::module_& module) {
       .field("charts", &RefineResult::charts)
       .field("pieces", &RefineResult::pieces)
       .field("rectangles", &RefineResult::rectangles)
+      .field("groups", &RefineResult::groups)
       .field("repairs", &RefineResult::repairs)
       .field("fallbacks", &RefineResult::fallbacks)
       .field("warnings", &RefineResult::warnings)
@@ -235,6 +256,7 @@ void bind_results(py::module_& module) {
   bind_measures(module);
   bind_cut_mesh(module);
   bind_rectangle_report(module);
+  bind_repairs_and_groups(module);
   bind_refine_result(module);
 }
 

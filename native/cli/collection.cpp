@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "io/input_file.h"
 
@@ -62,6 +63,34 @@ std::vector<double> Collection::of_atlas(const std::vector<double>& face_values)
     first += file.mesh->face_count();
   }
   return result;
+}
+
+void Collection::group_by_material(RefineOptions& options) const {
+  std::map<std::string, int> numbers;
+  options.groups.clear();
+  options.group_names.clear();
+  for (const File& file : files_) {
+    const io::FaceLabels& labels = file.mesh->materials();
+    for (const int label : labels.of_face) {
+      const std::string& name = labels.names[label];
+      const auto [at, added] = numbers.emplace(name, static_cast<int>(numbers.size()));
+      if (added) options.group_names.push_back(name.empty() ? "no material" : "material " + name);
+      options.groups.push_back(at->second);
+    }
+  }
+}
+
+void Collection::group_by_object(RefineOptions& options) const {
+  options.groups.clear();
+  options.group_names.clear();
+  for (const File& file : files_) {
+    const io::FaceLabels& labels = file.mesh->objects();
+    const auto first = static_cast<int>(options.group_names.size());
+    const std::string where = files_.size() > 1 ? file.path.filename().string() + ": " : "";
+    for (const std::string& name : labels.names)
+      options.group_names.push_back(where + (name.empty() ? "no object" : "object " + name));
+    for (const int label : labels.of_face) options.groups.push_back(first + label);
+  }
 }
 
 std::vector<std::string> Collection::notes() const {

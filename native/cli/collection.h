@@ -29,6 +29,10 @@ class Collection {
   /// Of one value for each face of the files those for the faces of atlas().
   std::vector<double> of_atlas(const std::vector<double>& face_values) const;
 
+  /// Groups for RefineOptions, and their names: materials of one name are one in all files, objects of each file are its own.
+  void group_by_material(RefineOptions& options) const;
+  void group_by_object(RefineOptions& options) const;
+
   /// What the files hold that is not in atlas(), or not as they have it; of several files each line names its own.
   std::vector<std::string> notes() const;
 

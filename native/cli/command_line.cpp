@@ -116,6 +116,41 @@ void add_goal(CLI::App& app, RefineOptions& options) {
       });
 }
 
+template <class Choice>
+void add_choice(CLI::App& app, const char* name, const char* unit, const std::string& help, Choice& choice,
+                std::initializer_list<std::pair<const char*, Choice>> choices) {
+  const std::vector<std::pair<std::string, Choice>> known(choices.begin(), choices.end());
+  add(app, name, unit, help, [&choice, known](const Value& v) {
+    std::string expected;
+    for (const auto& [word, value] : known) {
+      if (v.text == word) {
+        choice = value;
+        return;
+      }
+      expected += (expected.empty() ? "'" : word == known.back().first ? " or '" : ", '") + word + "'";
+    }
+    v.refuse("must be " + expected);
+  });
+}
+
+/// What happens to charts that are not like the others.
+void add_charts(CLI::App& app, CommandLine& line) {
+  RefineOptions& options = line.options;
+  add_choice<std::string>(app, "--group-by", "none|material|object|tile",
+                          "One atlas for all faces, or one for each material, object or UDIM tile [none]", line.group_by,
+                          {{"none", "none"}, {"material", "material"}, {"object", "object"}, {"tile", "tile"}});
+  add_choice<Stacks>(app, "--stacks", "keep|separate",
+                     "Charts of one shape that lie on each other stay on each other, or get a place each [keep]", options.stacks,
+                     {{"keep", Stacks::Keep}, {"separate", Stacks::Separate}});
+  add_choice<Collapsed>(
+      app, "--collapsed", "leave|embed",
+      "Charts whose UVs are a point or a line stay as they are, outside the atlas, or get UVs with area [leave]",
+      options.collapsed, {{"leave", Collapsed::Leave}, {"embed", Collapsed::Embed}});
+  add_flag(app, "--open-closed", options.open_closed,
+           "Charts without a border, or with a handle, may be opened along edges: they cannot be flat without a seam");
+  add_flag(app, "--triangulate", options.triangulate, "Write faces that are cut as triangles throughout");
+}
+
 void add_distortion(CLI::App& app, CommandLine& line) {
   RefineOptions& options = line.options;
   add(app, "--max-distortion", "E_d", "Largest distortion E_d on the surface allowed, 1 = isometric [no limit]",
@@ -270,6 +305,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   app.get_formatter()->column_width(34);
   add_files(app, draft.line);
   add_goal(app, draft.line.options);
+  add_charts(app, draft.line);
   add_distortion(app, draft.line);
   add_rectangles(app, draft);
   add_gap(app, draft);

@@ -18,6 +18,7 @@ struct CommandLine {
   std::optional<std::filesystem::path> report;
   std::optional<std::filesystem::path> svg_folder;
   std::optional<std::filesystem::path> importance;
+  std::string group_by = "none";  ///< none, material, object or tile
   RefineOptions options;
   bool json = false;  ///< measure: JSON instead of a table
   std::string text;   ///< PrintText: the help or the version

@@ -90,6 +90,34 @@ std::unique_ptr<DebugSink> pictures(const CommandLine& line) {
   return svg_sink(*line.svg_folder);
 }
 
+void set_groups(const CommandLine& line, const Collection& files, RefineOptions& options) {
+  if (line.group_by == "material") files.group_by_material(options);
+  if (line.group_by == "object") files.group_by_object(options);
+  if (line.group_by == "tile") {
+    TileGroups tiles = group_by_tile(files.atlas());
+    options.groups = std::move(tiles.groups);
+    options.group_origins = std::move(tiles.origins);
+    options.group_names = std::move(tiles.names);
+  }
+}
+
+/// What an artist may have meant to keep apart, where one atlas was made of it.
+std::vector<std::string> shared_by(const CommandLine& line, const Collection& files) {
+  std::vector<std::string> out;
+  RefineOptions groups;
+  if (line.group_by != "none") return out;
+  files.group_by_material(groups);
+  if (groups.group_names.size() > 1) {
+    std::string names;
+    for (std::size_t k = 0; k < groups.group_names.size() && k < 6; ++k) names += (k > 0 ? ", " : "") + groups.group_names[k];
+    if (groups.group_names.size() > 6) names += " and " + std::to_string(groups.group_names.size() - 6) + " more";
+    out.push_back("one atlas for " + names + "; --group-by material makes one for each");
+  }
+  if (const std::size_t tiles = group_by_tile(files.atlas()).origins.size(); tiles > 1)
+    out.push_back("charts of " + std::to_string(tiles) + " UDIM tiles share one now; --group-by tile makes an atlas for each");
+  return out;
+}
+
 RefineResult refine_with_progress(const Atlas& atlas, const RefineOptions& options, DebugSink* debug) {
   ProgressBar bar;
   const auto report_progress = [&bar](const Progress& progress) {
@@ -130,6 +158,7 @@ int run_refine(CommandLine line) {
     auto start = std::chrono::steady_clock::now();
     for (const auto& input : line.inputs) files.add(input);
     if (line.importance) line.options.importance = files.of_atlas(read_importance(*line.importance, files.face_count()));
+    set_groups(line, files, line.options);
     times.read = seconds_since(start);
 
     const InterruptScope ask_and_exit(OnInterrupt::AskAndExit);
@@ -139,6 +168,10 @@ int run_refine(CommandLine line) {
     times.refine = seconds_since(start);
     const std::vector<std::string> notes = files.notes();
     result.warnings.insert(result.warnings.begin(), notes.begin(), notes.end());
+    if (result.intervention != Intervention::Unchanged) {
+      const std::vector<std::string> shared = shared_by(line, files);
+      result.warnings.insert(result.warnings.end(), shared.begin(), shared.end());
+    }
     const std::vector<FileReport> reports = write_outputs(line, files, result, times);
     std::fputs(summary(reports, result, times).c_str(), stdout);
     return exit_done;

@@ -70,6 +70,11 @@ Json to_json(const CommandLine& line) {
           {"relax", o.relax},
           {"best_effort", o.best_effort},
           {"density", o.density == Density::Keep ? "keep" : "equal"},
+          {"group_by", line.group_by},
+          {"stacks", o.stacks == Stacks::Separate ? "separate" : "keep"},
+          {"collapsed", o.collapsed == Collapsed::Embed ? "embed" : "leave"},
+          {"open_closed", o.open_closed},
+          {"triangulate", o.triangulate},
           {"reference", o.reference == Reference::Input ? "input" : "surface"},
           {"importance", line.importance ? Json(line.importance->string()) : Json(nullptr)},
           {"seed", o.seed},
@@ -83,11 +88,36 @@ Json to_json(const ChartReport& chart, std::size_t index) {
           {"area", number(chart.area)},
           {"mirrored", chart.mirrored},
           {"re_embedded", chart.re_embedded},
+          {"fate", to_string(chart.fate)},
+          {"reason", chart.reason.empty() ? Json(nullptr) : Json(chart.reason)},
+          {"stacked_on", chart.stacked_on < 0 ? Json(nullptr) : Json(chart.stacked_on)},
           {"distortion_before", number(chart.distortion_before)},
           {"distortion_after", number(chart.distortion_after)},
           {"stretch_max", number(chart.stretch_max)},
           {"density_before", number(chart.density_before)},
           {"density_after", number(chart.density_after)}};
+}
+
+Json to_json(const Repair& repair) {
+  return {{"what", repair.what},
+          {"charts", repair.charts},
+          {"faces", repair.faces},
+          {"distortion_to_input", number(repair.distortion_to_input)},
+          {"text", describe(repair)}};
+}
+
+Json to_json(const GroupReport& group) {
+  return {{"group", group.group},          {"name", group.name},
+          {"charts", group.charts},        {"intervention", to_string(group.intervention)},
+          {"bound_met", group.bound_met},  {"before", to_json(group.before)},
+          {"after", to_json(group.after)}, {"gap", to_json(group.gap)}};
+}
+
+template <class Entry>
+Json list_of(const std::vector<Entry>& entries) {
+  Json list = Json::array();
+  for (const Entry& entry : entries) list.push_back(to_json(entry));
+  return list;
 }
 
 Json to_json(const PieceReport& piece, std::size_t index) {
@@ -185,7 +215,8 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
                {"charts", numbered(result.charts)},
                {"pieces", numbered(result.pieces)},
                {"rectangles", result.rectangles ? to_json(*result.rectangles) : Json(nullptr)},
-               {"repairs", result.repairs},
+               {"groups", list_of(result.groups)},
+               {"repairs", list_of(result.repairs)},
                {"fallbacks", result.fallbacks},
                {"warnings", result.warnings},
                {"timings", stages},
@@ -207,7 +238,12 @@ std::string summary(const std::vector<FileReport>& files, const RefineResult& re
   text += print("  added seams  %d\n", after.seam_edges - before.seam_edges);
   text += cut_lines(files, result);
   text += "  gap          " + gap_text(after.gap_between) + "\n";
-  for (const std::string& repair : result.repairs) text += "  repair: " + repair + "\n";
+  for (const GroupReport& group : result.groups)
+    text += "  atlas        " + group.name +
+            print(": %d charts, PE %.4f -> %.4f, E_d %.4f, ", group.charts, group.before.pe_fixed_aspect,
+                  group.after.pe_fixed_aspect, group.after.distortion) +
+            to_string(group.intervention) + "\n";
+  for (const Repair& repair : result.repairs) text += "  repair: " + describe(repair) + "\n";
   for (const std::string& fallback : result.fallbacks) text += "  fallback: " + fallback + "\n";
   for (const std::string& warning : result.warnings) text += "  warning: " + warning + "\n";
   return text;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "atlas_refine/result.h"
+#include "io/face_labels.h"
 
 namespace atlas_refine::io {
 
@@ -26,6 +27,9 @@ class MeshFile {
 
   /// What `atlas()` leaves out or takes otherwise than the file has it: one line for each kind. It is written as it was.
   virtual std::vector<std::string> notes() const = 0;
+
+  virtual const FaceLabels& materials() const = 0;
+  virtual const FaceLabels& objects() const = 0;
 
   /// Where in the file face `face` (0-based, of `atlas()`) is, as messages say it: "line 12".
   virtual std::string where(int face) const = 0;

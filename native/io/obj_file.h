@@ -21,6 +21,8 @@ class ObjFile final : public MeshFile {
   int face_count() const override { return text_.face_count; }
   int face_number(int face) const override { return text_.face_records[face].number; }
   std::vector<std::string> notes() const override;
+  const FaceLabels& materials() const override { return text_.materials; }
+  const FaceLabels& objects() const override { return text_.objects; }
   std::string where(int face) const override { return "line " + std::to_string(text_.face_records[face].line); }
 
   /// Only vt records and vt indices differ: each vt record becomes one record per value its corners now hold, so the UVs stay as

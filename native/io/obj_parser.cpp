@@ -17,6 +17,27 @@ namespace {
 
 using Span = ObjText::Span;
 
+/// The name that holds from a record on, until the next.
+class LabelReader {
+ public:
+  void set(std::string name) { name_ = std::move(name); }
+  void label_face() {
+    if (!labels_.of_face.empty() && labels_.names[labels_.of_face.back()] == name_) {
+      labels_.of_face.push_back(labels_.of_face.back());
+      return;
+    }
+    const auto [at, added] = numbers_.emplace(name_, static_cast<int>(labels_.names.size()));
+    if (added) labels_.names.push_back(name_);
+    labels_.of_face.push_back(at->second);
+  }
+  FaceLabels take() { return std::move(labels_); }
+
+ private:
+  std::string name_;
+  FaceLabels labels_;
+  std::unordered_map<std::string, int> numbers_;
+};
+
 /// One pass, the places of everything that may be rewritten remembered.
 class ObjParser {
  public:
@@ -41,6 +62,7 @@ class ObjParser {
   void read_face(std::size_t record_begin);
   void read_line_element();
   void read_point_element();
+  void read_label(std::string_view keyword);
   ObjText::Remark* reason_to_leave_out();
   void add_face();
   void add_corner(const Corner& corner);
@@ -65,6 +87,7 @@ class ObjParser {
   std::vector<Corner> corners_;  // of the present face
   std::vector<int> kept_;        // those of them that do not repeat the one before
   std::vector<int> sorted_;      // their vertices
+  LabelReader materials_, objects_, groups_;
 };
 
 ObjText ObjParser::run() && {
@@ -72,6 +95,10 @@ ObjText ObjParser::run() && {
   if (obj_.text.empty()) throw RefineError(ErrorCode::BadInput, "read", "is empty");
   while (!scanner_.at_end()) read_record();
   check_indices();
+  obj_.materials = materials_.take();
+  FaceLabels objects = objects_.take();
+  const bool unnamed = objects.names.size() == 1 && objects.names.front().empty();
+  obj_.objects = unnamed ? groups_.take() : std::move(objects);
   obj_.atlas.corner_uvs.resize(obj_.atlas.corner_vertices.size());
   for (auto reference = obj_.uv_references.rbegin(); reference != obj_.uv_references.rend(); ++reference) {
     if (reference->corner >= 0) obj_.atlas.corner_uvs[reference->corner] = obj_.uv_records[reference->record].value;
@@ -96,8 +123,17 @@ void ObjParser::read_record() {
   } else if (keyword == "p") {
     read_point_element();
   } else {
+    if (keyword == "usemtl" || keyword == "o" || keyword == "g") read_label(keyword);
     scanner_.skip_physical_line();
   }
+}
+
+void ObjParser::read_label(std::string_view keyword) {
+  const Span first = scanner_.next_token();
+  Span name = first;
+  for (Span token = first; token.begin != token.end; token = scanner_.next_token()) name.end = token.end;
+  LabelReader& reader = keyword == "usemtl" ? materials_ : keyword == "o" ? objects_ : groups_;
+  reader.set(std::string(obj_.view(name)));
 }
 
 void ObjParser::read_position(std::size_t record_begin) {
@@ -165,6 +201,7 @@ void ObjParser::read_face(std::size_t record_begin) {
   }
   if (kept_.size() < corners_.size()) obj_.with_repeats.add(record.line);
   obj_.face_records.push_back(record);
+  for (LabelReader* labels : {&materials_, &objects_, &groups_}) labels->label_face();
   add_face();
 }
 

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "atlas_refine/atlas.h"
+#include "io/face_labels.h"
 
 namespace atlas_refine::io {
 
@@ -73,6 +73,8 @@ struct ObjText {
   std::vector<double> extras;
   std::vector<NormalRecord> normal_records;
   std::vector<FaceRecord> face_records;
+  FaceLabels materials;             ///< of usemtl records; faces before the first have the name ""
+  FaceLabels objects;               ///< of o records, or where there are none of g records
   std::vector<int> corner_normals;  ///< index into normal_records, -1 where the corner names none
   std::vector<ElementReference> element_references;
   std::unordered_map<int, int> repeats;  ///< by corner: how often its face names it again right behind itself

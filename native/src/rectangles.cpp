@@ -46,8 +46,8 @@ LayoutOptions layout_options(const Refinement& run) {
 }
 
 void embed(const Refinement& run, int c, std::vector<Chart>& charts, std::vector<int>& embedded) {
-  charts[c] = re_embed(charts[c], c, run.threads, run.monitor);
-  run.journal.repairs.push_back(charts_named({c}) + ": overlapped or touched itself, embedded anew");
+  charts[c] = re_embed(charts[c], run.threads, run.monitor);
+  run.journal.repairs.push_back({.what = "overlapped or touched itself, embedded anew", .charts = {charts[c].number}});
   embedded.push_back(c);
 }
 
@@ -92,14 +92,16 @@ RectangleReport report_of(const AlignedCharts& aligned, const Layout& layout) {
 void tell(const Refinement& run, const AlignedCharts& aligned, const Layout& layout, const RectangleReport& report) {
   std::vector<int> opened, saved, boxed;
   for (int c = 0; c < static_cast<int>(aligned.size()); ++c) {
-    if (aligned[c].holes_cut > 0) opened.push_back(c);
-    if (aligned[c].way == AxisAlignedChart::Way::Rectangle) saved.push_back(c);
-    if (aligned[c].way == AxisAlignedChart::Way::AsItIs) boxed.push_back(c);
+    const int number = run.input.set.charts[c].number;
+    if (aligned[c].holes_cut > 0) opened.push_back(number);
+    if (aligned[c].way == AxisAlignedChart::Way::Rectangle) saved.push_back(number);
+    if (aligned[c].way == AxisAlignedChart::Way::AsItIs) boxed.push_back(number);
   }
   Journal& journal = run.journal;
   if (!opened.empty())
-    journal.repairs.push_back(charts_named(opened) + ": " + std::to_string(report.holes_cut) +
-                              (report.holes_cut == 1 ? " hole" : " holes") + " cut open along shortest paths");
+    journal.repairs.push_back({.what = std::to_string(report.holes_cut) + (report.holes_cut == 1 ? " hole" : " holes") +
+                                       " cut open along shortest paths",
+                               .charts = opened});
   if (!saved.empty())
     journal.fallbacks.push_back(charts_named(saved) + ": could not be deformed to the axes; embedded onto a rectangle");
   if (!boxed.empty())

@@ -1,182 +1,82 @@
-// The whole method, top to bottom: charts, the road, the certificate.
+// The whole method, top to bottom: charts, who takes part, each atlas by itself, all put together again.
 #include "atlas_refine/refine.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "input/check_atlas.h"
-#include "measure/certificate.h"
-#include "measure/distortion.h"
-#include "rectangles.h"
-#include "report/certify.h"
+#include "input/join_edges.h"
+#include "input/take_part.h"
+#include "one_atlas.h"
+#include "report/assemble.h"
 #include "report/options.h"
-#include "support/parallel.h"
-#include "whole.h"
+#include "report/outcome.h"
+#include "support/monitor.h"
 
 namespace atlas_refine {
 namespace {
 
-bool within_limit(const RefineOptions& options, double distortion) {
-  return !options.max_distortion || distortion <= *options.max_distortion * (1 + 1e-9);
+constexpr ProgressRange kInput = {0, 0.02};
+constexpr ProgressRange kAtlases = {0.02, 1};
+
+Vec2 origin_of(const Part& part, const RefineOptions& options) {
+  const bool given = part.group < static_cast<int>(options.group_origins.size());
+  return given ? options.group_origins[part.group] : Vec2(Vec2::Zero());
 }
 
-/// The input is valid and at the bound; a gap counts only where one was asked for.
-bool holds_already(const InputAtlas& input, const RefineOptions& options) {
-  const Measures& before = input.measures;
-  if (before.pe_fixed_aspect < options.pe_bound || !within_limit(options, before.distortion)) return false;
-  if (!validate_split(input.set).valid()) return false;
-  const Vec2 box = box_of_aspect(uv_box(input.set.charts), options.box_aspect).size();
-  return !options.gap || gap_between_charts(input.set.charts) >= options.gap->length(box);
+/// Each atlas by itself, one after the other; each has its part of the progress by its number of charts.
+std::vector<Done> refine_parts(const InputAtlas& whole, const Participants& participants, const RefineOptions& options,
+                               Monitor& monitor, Journal& journal) {
+  std::vector<Done> done;
+  const double all = static_cast<double>(whole.set.charts.size() - participants.left.size() - participants.followers.size());
+  double before = 0;
+  for (const Part& part : participants.parts) {
+    const double after = before + static_cast<double>(part.charts.size()) / all;
+    const Journal::Mark mark = journal.mark();
+    InputAtlas input = part_of(whole, part.charts, options.box_aspect);
+    input.origin = origin_of(part, options);
+    done.push_back({part, refine_one(input, options, kAtlases.part(before, after), monitor, journal)});
+    if (participants.parts.size() > 1) journal.prefix_from(mark, name_of(part.group, options) + ": ");
+    before = after;
+  }
+  return done;
 }
 
-RefineResult unchanged(const InputAtlas& input, const RefineOptions& options) {
-  RefineResult result{.corner_uvs = input.atlas.corner_uvs, .bound_met = true, .before = input.measures, .after = input.measures};
-  // An automatic gap asks nothing of an atlas that is left as it is.
-  result.gap = options.gap.value_or(Gap{std::min(Gap{}.value, input.measures.gap_between)});
-  result.charts = reports_of_input(input);
+std::vector<RefinedPart> refined_parts(std::vector<Done>& done) {
+  std::vector<RefinedPart> out;
+  for (auto& [part, outcome] : done) {
+    const bool changed = outcome.intervention != Intervention::Unchanged;
+    out.push_back({part.charts, changed, std::move(outcome.atlas), std::move(outcome.uvs)});
+  }
+  return out;
+}
+
+RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, const RefineOptions& options, Monitor& monitor,
+                          Journal& journal) {
+  journal.begin_stage("input", kInput);
+  const InputAtlas whole = read_atlas(atlas, options.box_aspect);
+  const Participants participants = take_part(whole.set, options, has_uvs);
+  journal.show("input", charts_as_placed(whole.set));
+  std::vector<Done> done = refine_parts(whole, participants, options, monitor, journal);
+  RefineResult result;
+  summarise(whole, participants, options, done, result);
+  tell_of(participants, done, journal);
+  AssembledAtlas assembled = assemble(whole, participants, refined_parts(done));
+  measure_seams(atlas, join_edges(atlas), result.before);
+  measure_seams(assembled.mesh, join_edges(assembled.mesh), result.after);
+  result.corner_uvs = std::move(assembled.mesh.corner_uvs);
+  result.cut = std::move(assembled.cut);
   return result;
 }
 
-void note_mirrored(const InputAtlas& input, Journal& journal) {
-  std::vector<int> mirrored;
-  for (int c = 0; c < static_cast<int>(input.set.mirrored.size()); ++c) {
-    if (input.set.mirrored[c]) mirrored.push_back(c);
+/// Faces without usable coordinates are set aside, and keep theirs.
+RefineResult refine_usable(const Atlas& atlas, const RefineOptions& options, Monitor& monitor, Journal& journal) {
+  check_arrays(atlas);
+  if (is_usable(atlas)) return refine_atlas(atlas, {}, options, monitor, journal);
+  const UsableAtlas usable = set_unusable_aside(atlas);
+  RefineResult result = refine_atlas(usable.atlas, usable.has_uvs, options, monitor, journal);
+  for (std::size_t c = 0; c < result.corner_uvs.size(); ++c) {
+    const int source = result.cut ? result.cut->corner_sources[c][0] : static_cast<int>(c);
+    if (result.corner_uvs[c] == usable.atlas.corner_uvs[source]) result.corner_uvs[c] = atlas.corner_uvs[source];
   }
-  if (!mirrored.empty()) journal.repairs.push_back(charts_named(mirrored) + ": mirrored, turned over");
-}
-
-struct CertifiedSolution {
-  Solution solution;
-  CertifiedAtlas atlas;
-};
-
-CertifiedSolution certified(const Refinement& run, Solution solution) {
-  run.journal.begin_stage("certify", {0.95, 1});
-  CertifiedAtlas atlas = certify(run.input, solution.atlas, solution.gap, run.options);
-  return {std::move(solution), std::move(atlas)};
-}
-
-/// Where the charts would have been better off without cuts at the same bound, the warnings say so.
-void compare_with_whole(const Refinement& run, const CertifiedSolution& cut) {
-  constexpr double kWorthTelling = 1e-4;  // of E_d
-  run.journal.begin_stage("compare", {0.97, 1});
-  const double own = cut.atlas.after.distortion;
-  const auto whole = distortion_without_cuts(run, own - kWorthTelling);
-  if (!whole) return;
-  run.journal.warnings.push_back("without cuts the charts hold the same bound with less distortion: E_d " +
-                                 number_text("%.4f", *whole) + " against " + number_text("%.4f", own));
-}
-
-/// The road that cuts; nothing where charts are better left whole, which the journal then says.
-std::optional<CertifiedSolution> solve_with_cuts(const Refinement& run, const ProgressRange& range) {
-  Journal& journal = run.journal;
-  const Journal::Mark before = journal.mark();
-  std::string failure;
-  try {
-    Attempt attempt = refine_by_rectangles(run, range);
-    if (attempt.solution) {
-      CertifiedSolution result = certified(run, std::move(*attempt.solution));
-      if (!run.options.rectangles.until_input) compare_with_whole(run, result);
-      return result;
-    }
-    if (attempt.needless) {
-      journal.back_to(before);
-      journal.warnings.emplace_back("no chart needs a cut");
-      return std::nullopt;
-    }
-    failure = attempt.failure;
-  } catch (const RefineError& error) {
-    if (error.code() != ErrorCode::NotCertified) throw;
-    failure = error.what();
-  }
-  journal.back_to(before);
-  journal.fallbacks.push_back("charts were not cut into rectangles: " + failure);
-  return std::nullopt;
-}
-
-CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
-  RefineOptions options = run.options;
-  if (options.seams == Seams::Rectangles) {
-    if (auto cut = solve_with_cuts(run, range)) return std::move(*cut);
-    // Also where charts are not cut, that road goes on to the optimum under the bound.
-    options.relax = options.relax || !options.rectangles.until_input;
-  }
-  const Refinement whole{run.input, options, run.monitor, run.journal, run.threads};
-  return certified(whole, refine_whole(whole, range));
-}
-
-/// Why the result is not what was asked for; empty where it is.
-std::string shortfall(const InputAtlas& input, const RefineOptions& options, const Measures& after) {
-  const std::string figures =
-      "packing efficiency " + number_text("%.4f", after.pe_fixed_aspect) + " at E_d " + number_text("%.4f", after.distortion);
-  const std::string limit = options.max_distortion ? "a distortion of " + number_text("%g", *options.max_distortion) : "";
-  if (!within_limit(options, after.distortion))
-    return message_prefix(input.atlas) + "no atlas within " + limit + " was found; the least distorted one has " + figures;
-  if (after.pe_fixed_aspect >= options.pe_bound) return "";
-  return message_prefix(input.atlas) + "the bound " + number_text("%g", options.pe_bound) + " was not reached" +
-         (limit.empty() ? "" : " within " + limit) + "; the best found is " + figures;
-}
-
-RefineResult result_of(const InputAtlas& input, const RefineOptions& options, const Solution& solution,
-                       CertifiedAtlas certified) {
-  RefineResult result{.corner_uvs = std::move(certified.corner_uvs),
-                      .cut = std::move(certified.cut),
-                      .intervention = solution.intervention,
-                      .before = input.measures,
-                      .after = certified.after,
-                      .gap = solution.gap,
-                      .price = solution.price,
-                      .ended = solution.ended};
-  const std::string missed = shortfall(input, options, result.after);
-  result.bound_met = missed.empty();
-  if (!result.bound_met && !(options.best_effort && within_limit(options, result.after.distortion)))
-    throw RefineError(ErrorCode::BoundNotReached, "squeeze", missed);
-  result.charts = std::move(certified.charts);
-  for (int c : solution.re_embedded) result.charts[c].re_embedded = true;
-  result.pieces = std::move(certified.pieces);
-  result.rectangles = solution.rectangles;
   return result;
-}
-
-/// With kept densities the charts whose texel density the squeeze has changed all the same.
-void warn_of_density(const RefineOptions& options, const std::vector<ChartReport>& charts, Journal& journal) {
-  constexpr double kNotable = 0.1;
-  if (options.density != Density::Keep) return;
-  std::vector<int> changed;
-  double most = 0;
-  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
-    const double change = std::abs(charts[c].density_after / charts[c].density_before - 1);
-    if (change > kNotable) changed.push_back(c);
-    most = std::max(most, change);
-  }
-  if (!changed.empty())
-    journal.warnings.push_back(charts_named(changed) + ": bending changed the texel density by up to " +
-                               number_text("%.0f %%", 100 * most));
-}
-
-void warn_of_early_end(const Solution& solution, Journal& journal) {
-  const char* why = solution.ended == Ended::Stalled           ? "stalled"
-                    : solution.ended == Ended::OutOfIterations ? "ran out of iterations"
-                                                               : nullptr;
-  if (why) journal.warnings.push_back(std::string("the optimisation ") + why + ": the distortion may not be at its least");
-}
-
-RefineResult refine_input(const Atlas& atlas, const RefineOptions& options, Monitor& monitor, Journal& journal) {
-  journal.begin_stage("input", {0, 0.02});
-  const InputAtlas input = read_atlas(atlas, options.box_aspect);
-  require_no_flips(atlas, input.set);
-  note_mirrored(input, journal);
-  journal.show("input", charts_as_placed(input.set));
-  const bool holds = holds_already(input, options);
-  if (holds && !options.relax) return unchanged(input, options);
-
-  const Refinement run{input, options, monitor, journal, resolve_threads(options.threads)};
-  CertifiedSolution result = solve(run, {0.02, 0.95});
-  if (holds && result.atlas.after.distortion >= input.measures.distortion) return unchanged(input, options);
-  journal.show(to_string(result.solution.intervention), result.atlas.stored);
-  warn_of_early_end(result.solution, journal);
-  warn_of_density(options, result.atlas.charts, journal);
-  return result_of(input, options, result.solution, std::move(result.atlas));
 }
 
 }  // namespace
@@ -188,7 +88,7 @@ RefineResult refine(const Atlas& atlas, const RefineOptions& options, const Prog
   RefineResult result;
   run_monitored(progress, [&](Monitor& monitor) {
     Journal journal(monitor, debug, options.box_aspect);
-    result = refine_input(atlas, options, monitor, journal);
+    result = refine_usable(atlas, options, monitor, journal);
     journal.end_stage();
     result.iterations = journal.iterations;
     result.repairs = std::move(journal.repairs);

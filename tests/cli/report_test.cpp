@@ -19,7 +19,7 @@ RefineResult result_that_fell_back() {
   result.after.box_height = 0.712;
   result.after.unit_square_share = 0.5696;
   result.after.gap_between = std::numeric_limits<double>::infinity();
-  result.repairs = {"chart 3: mirrored, turned over"};
+  result.repairs = {{.what = "mirrored, turned over", .charts = {3}}};
   result.fallbacks = {"cut first, squeezed instead"};
   return result;
 }

@@ -101,6 +101,12 @@ class ChartReport:
     @property
     def re_embedded(self) -> bool: ...  # overlapped or touched itself and was embedded anew
     @property
+    def fate(self) -> Literal["refined", "left", "stacked", "kept", "locked"]: ...
+    @property
+    def reason(self) -> str: ...  # why it was left
+    @property
+    def stacked_on(self) -> int: ...  # the chart that it went with, -1 where none
+    @property
     def distortion_before(self) -> float: ...  # E_d of the chart alone at its own best scale
     @property
     def distortion_after(self) -> float: ...
@@ -166,6 +172,40 @@ class RectangleReport:
     def packed_pe(self) -> float: ...  # of the rectangles, before the distortion was reduced
     def as_dict(self) -> dict[str, Any]: ...
 
+class Repair:
+    """What was mended in charts before they were refined."""
+
+    @property
+    def what(self) -> str: ...
+    @property
+    def charts(self) -> list[int]: ...
+    @property
+    def faces(self) -> list[int]: ...  # that were at fault; empty where the charts as a whole were
+    @property
+    def distortion_to_input(self) -> float: ...  # E_2 over the faces that were not at fault
+    @property
+    def text(self) -> str: ...  # all of it in one line
+    def as_dict(self) -> dict[str, Any]: ...
+
+class GroupReport:
+    """One atlas of several."""
+
+    @property
+    def group(self) -> int: ...
+    @property
+    def charts(self) -> int: ...  # that took part
+    @property
+    def intervention(self) -> Literal["unchanged", "moved", "squeezed", "cut"]: ...
+    @property
+    def bound_met(self) -> bool: ...
+    @property
+    def before(self) -> Measures: ...  # but for seams
+    @property
+    def after(self) -> Measures: ...
+    @property
+    def gap(self) -> Gap: ...
+    def as_dict(self) -> dict[str, Any]: ...
+
 class RefineResult:
     @property
     def corner_uvs(self) -> NDArray[np.float64]: ...  # (C, 2) of `cut` or, without it, of the input; a new array
@@ -194,7 +234,9 @@ class RefineResult:
     @property
     def rectangles(self) -> RectangleReport | None: ...  # only where the charts were cut
     @property
-    def repairs(self) -> list[str]: ...  # what was mended and where
+    def groups(self) -> list[GroupReport]: ...  # empty without `groups`
+    @property
+    def repairs(self) -> list[Repair]: ...  # what was mended and where
     @property
     def fallbacks(self) -> list[str]: ...  # what was tried first, and what was done instead
     @property

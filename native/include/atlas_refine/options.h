@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "atlas_refine/atlas.h"
@@ -91,9 +92,12 @@ struct RefineOptions {
   bool align_axes = false;   ///< a moved chart whose longest border runs straight is turned so that it lies on an axis
   bool triangulate = false;  ///< of cut faces: triangles throughout, no larger polygons
 
-  /// One number per face: the atlas that the face belongs to; faces of different numbers never share a chart, and each number
-  /// gets a box of its own at the same place. Empty = one atlas.
+  /// One number >= 0 per face: the atlas that the face belongs to; faces of different numbers never share a chart, and each
+  /// number gets a box of its own. Empty = one atlas.
   std::vector<int> groups;
+  std::vector<std::string> group_names;  ///< entry g: what messages call group g; may be shorter
+  /// Entry g: the lower left corner of the box of group g; (0, 0) for groups beyond its end.
+  std::vector<Vec2> group_origins;
   /// One flag per face, or empty. A chart with a face that is set is only moved: its UVs stay the same shape, to rounding, up to
   /// the scale that `density` gives it.
   std::vector<char> keep_shape;

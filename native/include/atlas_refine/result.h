@@ -30,18 +30,53 @@ enum class Ended {
 /// Stable lower-case name ("not_run", "at_optimum", ...), used in reports and in Python.
 const char* to_string(Ended ended);
 
+/// What became of a chart of the input.
+enum class Fate {
+  Refined,  ///< took part: left as it was, moved, bent or cut
+  Left,     ///< stays as it is outside the atlas, which may use its place: no UVs with area, or no way to make it valid
+  Stacked,  ///< lies on another chart and went with it
+  Kept,     ///< only moved, as asked
+  Locked,   ///< stayed where it is, as asked
+};
+/// Stable lower-case name ("refined", ...), used in reports and in Python.
+const char* to_string(Fate fate);
+
 /// One chart of the input, in the order of its smallest face, and what became of it.
 struct ChartReport {
   int faces = 0;
-  double area = 0;               ///< on the surface, model units squared
-  bool mirrored = false;         ///< was turned over
-  bool re_embedded = false;      ///< overlapped or touched itself and was embedded anew
+  double area = 0;           ///< on the surface, model units squared
+  bool mirrored = false;     ///< was turned over
+  bool re_embedded = false;  ///< overlapped or touched itself and was embedded anew
+  Fate fate = Fate::Refined;
+  std::string reason;            ///< why it was left; empty for all others
+  int stacked_on = -1;           ///< the chart that it went with
   double distortion_before = 0;  ///< E_d of the chart alone at its own best scale
   double distortion_after = 0;
   double stretch_max = 0;  ///< largest stretch max(s1, 1 / s2) after, at the atlas' global scale
   /// Texel density: sqrt(UV area / surface area) of the chart / the same of the whole atlas; 1 = as dense as the atlas.
   double density_before = 0;
   double density_after = 0;
+};
+
+/// What was mended in charts before they were refined.
+struct Repair {
+  std::string what;                ///< in words
+  std::vector<int> charts;         ///< of the input
+  std::vector<int> faces;          ///< of the input, that were at fault; empty where the charts as a whole were
+  double distortion_to_input = 1;  ///< E_2 of the mended charts to the input's UVs, over the faces that were not at fault
+};
+/// "charts 3, 5: mirrored, turned over"
+std::string describe(const Repair& repair);
+
+/// One atlas of several (RefineOptions::groups).
+struct GroupReport {
+  int group = 0;     ///< its number in RefineOptions::groups
+  std::string name;  ///< in RefineOptions::group_names
+  int charts = 0;
+  Intervention intervention = Intervention::Unchanged;
+  bool bound_met = false;
+  Measures before, after;
+  Gap gap;
 };
 
 /// One chart of the output, where charts were cut: a part of a chart of the input.
@@ -93,19 +128,22 @@ struct RefineResult {
   std::optional<CutMesh> cut;    ///< where faces were divided or added seams run: never with Seams::None
   Intervention intervention = Intervention::Unchanged;
   bool bound_met = false;  ///< false only with best_effort, where PE is below the bound; max_distortion holds in every result
+  /// Of the charts that take part, stacked ones once. With several groups PE, box and gaps are the least of theirs, distortions
+  /// their means by area.
   Measures before;
   Measures after;
-  Gap gap;             ///< the gap that is guaranteed in the result
+  Gap gap;             ///< the gap that is guaranteed in the result; the least of several groups
   double price = 0;    ///< lambda: marginal objective for one unit of log PE at the bound; 0 where it does not bind
   int iterations = 0;  ///< Newton iterations, all stages
   Ended ended = Ended::NotRun;
   std::vector<ChartReport> charts;  ///< one per chart of the input
   std::vector<PieceReport> pieces;  ///< one per chart of the output; empty unless Intervention::Cut
   std::optional<RectangleReport> rectangles;
-  std::vector<std::string> repairs;    ///< one line each: what was mended and where
+  std::vector<GroupReport> groups;     ///< empty without RefineOptions::groups
+  std::vector<Repair> repairs;         ///< what was mended and where
   std::vector<std::string> fallbacks;  ///< one line each: what was tried first, and what was done instead
   std::vector<std::string> warnings;   ///< one line each: what a user should know of the result
-  std::vector<StageTime> timings;      ///< in order; after a fallback a stage may come twice
+  std::vector<StageTime> timings;      ///< in order; what a stage took in several groups or attempts is one sum
 };
 
 }  // namespace atlas_refine

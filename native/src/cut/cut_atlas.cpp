@@ -102,6 +102,7 @@ class Dealer {
   }
 
   std::vector<Piece> run(const Chart& whole, const std::vector<int>& points) {
+    for (Piece& piece : pieces_) piece.mesh.number = whole.number;
     for (int t = 0; t < mesh_.triangle_count(); ++t) deal(t, whole, points);
     for (const std::vector<int>& loop : mesh_.vertex_loops()) {
       const int triangle = mesh_.fan(loop.front()).front().triangle;

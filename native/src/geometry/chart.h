@@ -18,6 +18,7 @@ struct Chart {
   Surface surface;                               ///< one shape per triangle
   std::vector<int> triangle_faces;               ///< one per triangle: the input face it came from
   std::vector<std::vector<int>> boundary_loops;  ///< vertex loops, the chart on the left; the loop of largest |area| first
+  int number = -1;                               ///< of the input's chart that it is or is part of: what messages name
 
   int vertex_count() const { return static_cast<int>(uvs.size()); }
 };

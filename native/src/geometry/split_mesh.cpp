@@ -259,6 +259,7 @@ Chart SplitMesh::to_chart(const Chart& source) const {
     parts.push_back(rest_of_part(source, s, {supports[triangles[t][0]], supports[triangles[t][1]], supports[triangles[t][2]]}));
   }
   out.surface = Surface(std::move(parts));
+  out.number = source.number;
   return out;
 }
 

@@ -1,6 +1,7 @@
 // Whether the arrays of an atlas fit together.
 #include "input/check_atlas.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "atlas_refine/error.h"
@@ -23,13 +24,6 @@ bool usable(const Vector& vector) {
   return true;
 }
 
-void check_positions(const Atlas& atlas) {
-  for (std::size_t v = 0; v < atlas.positions.size(); ++v) {
-    if (!usable(atlas.positions[v]))
-      fail(atlas, "vertex " + std::to_string(v) + ": the position is not a finite number below 1e60");
-  }
-}
-
 void check_faces(const Atlas& atlas) {
   if (atlas.face_count() == 0) fail(atlas, "the mesh has no faces");
   if (atlas.face_offsets.front() != 0 || atlas.face_offsets.back() != atlas.corner_count()) {
@@ -50,7 +44,6 @@ void check_corners(const Atlas& atlas) {
       if (v < 0 || v >= vertex_count) {
         fail(atlas, "face " + std::to_string(f) + " uses vertex " + std::to_string(v) + " of " + std::to_string(vertex_count), f);
       }
-      if (!usable(atlas.corner_uvs[c])) fail(atlas, "face " + std::to_string(f) + ": a UV is not a finite number below 1e60", f);
     }
   }
 }
@@ -59,13 +52,56 @@ void check_corners(const Atlas& atlas) {
 
 std::string message_prefix(const Atlas& atlas) { return atlas.name.empty() ? "" : "object '" + atlas.name + "': "; }
 
-void check_atlas(const Atlas& atlas) {
+void check_arrays(const Atlas& atlas) {
   if (atlas.corner_uvs.size() != atlas.corner_vertices.size()) {
     fail(atlas, std::to_string(atlas.corner_uvs.size()) + " UVs for " + std::to_string(atlas.corner_count()) + " corners");
   }
-  check_positions(atlas);
   check_faces(atlas);
   check_corners(atlas);
+}
+
+void check_atlas(const Atlas& atlas) {
+  check_arrays(atlas);
+  for (std::size_t v = 0; v < atlas.positions.size(); ++v) {
+    if (!usable(atlas.positions[v]))
+      fail(atlas, "vertex " + std::to_string(v) + ": the position is not a finite number below 1e60");
+  }
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    for (int c = atlas.face_offsets[f]; c < atlas.face_offsets[f + 1]; ++c) {
+      if (!usable(atlas.corner_uvs[c])) fail(atlas, "face " + std::to_string(f) + ": a UV is not a finite number below 1e60", f);
+    }
+  }
+}
+
+UsableAtlas set_unusable_aside(const Atlas& atlas) {
+  UsableAtlas out{.atlas = atlas, .has_uvs = std::vector<char>(atlas.face_count(), 1)};
+  Vec2 high = Vec2::Constant(-kLargestCoordinate);
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    for (int c = atlas.face_offsets[f]; c < atlas.face_offsets[f + 1]; ++c) {
+      if (!usable(atlas.corner_uvs[c]) || !usable(atlas.positions[atlas.corner_vertices[c]])) out.has_uvs[f] = 0;
+    }
+    for (int c = atlas.face_offsets[f]; out.has_uvs[f] && c < atlas.face_offsets[f + 1]; ++c)
+      high = high.cwiseMax(atlas.corner_uvs[c]);
+  }
+  if (std::all_of(out.has_uvs.begin(), out.has_uvs.end(), [](char has) { return has == 0; })) {
+    check_atlas(atlas);  // names the first
+  }
+  for (Vec3& position : out.atlas.positions) {
+    if (!usable(position)) position.setZero();
+  }
+  // A point of their own: they share a chart with no other face.
+  const Vec2 aside = high + Vec2::Constant(1);
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    for (int c = atlas.face_offsets[f]; !out.has_uvs[f] && c < atlas.face_offsets[f + 1]; ++c) out.atlas.corner_uvs[c] = aside;
+  }
+  return out;
+}
+
+bool is_usable(const Atlas& atlas) {
+  const auto all = [](const auto& values) {
+    return std::all_of(values.begin(), values.end(), [](const auto& value) { return usable(value); });
+  };
+  return all(atlas.positions) && all(atlas.corner_uvs);
 }
 
 }  // namespace atlas_refine

@@ -3,8 +3,8 @@
 
 namespace atlas_refine {
 
-std::string describe(const FaceDefect& defect) {
-  const std::string face = "face " + std::to_string(defect.face) + " of chart " + std::to_string(defect.chart);
+std::string describe(const FaceDefect& defect, int chart) {
+  const std::string face = "face " + std::to_string(defect.face) + " of chart " + std::to_string(chart);
   switch (defect.kind) {
     case FaceDefect::Kind::Flipped:
       return face + " is flipped in the UV map";

@@ -17,7 +17,7 @@ struct FaceDefect {
   Kind kind;
 };
 
-/// "face 7 of chart 0 is flipped in the UV map"
-std::string describe(const FaceDefect& defect);
+/// "face 7 of chart 0 is flipped in the UV map"; `chart` is what the chart is called.
+std::string describe(const FaceDefect& defect, int chart);
 
 }  // namespace atlas_refine

@@ -92,6 +92,7 @@ template <class Value, class ValueAt>
 std::vector<std::vector<Value>> at_vertices(const std::vector<CornerRef>& corners, std::size_t chart_count, ValueAt value_at) {
   std::vector<std::vector<Value>> values(chart_count);
   for (std::size_t c = 0; c < corners.size(); ++c) {
+    if (corners[c].chart < 0) continue;
     auto& of_chart = values[corners[c].chart];
     if (corners[c].vertex == static_cast<int>(of_chart.size())) of_chart.push_back(value_at(static_cast<int>(c)));
   }
@@ -147,7 +148,25 @@ ChartSet split_charts(const Atlas& atlas) {
   set.defects = triangulate_faces(atlas, set.corners, sides.turned_faces, set.charts);
   set_surfaces(set.charts, vertex_positions(atlas, set.corners, set.charts.size()));
   for (Chart& chart : set.charts) chart.boundary_loops = boundary_loops(chart);
+  for (std::size_t k = 0; k < set.charts.size(); ++k) set.charts[k].number = static_cast<int>(k);
   return set;
+}
+
+ChartSet select_charts(const ChartSet& set, const std::vector<int>& charts) {
+  ChartSet out;
+  std::vector<int> index(set.charts.size(), -1);
+  for (const int k : charts) {
+    index[k] = static_cast<int>(out.charts.size());
+    out.charts.push_back(set.charts[k]);
+    out.mirrored.push_back(set.mirrored[k]);
+    out.mixed_winding.push_back(set.mixed_winding[k]);
+  }
+  out.corners = set.corners;
+  for (CornerRef& corner : out.corners) corner.chart = corner.chart < 0 ? -1 : index[corner.chart];
+  for (const FaceDefect& defect : set.defects) {
+    if (index[defect.chart] >= 0) out.defects.push_back({index[defect.chart], defect.face, defect.kind});
+  }
+  return out;
 }
 
 std::vector<Chart> charts_as_placed(const ChartSet& set) {
@@ -176,9 +195,9 @@ void require_no_flips(const Atlas& atlas, const ChartSet& set) {
     ++count;
   }
   if (!first) return;
-  std::string message = message_prefix(atlas) + describe(*first);
+  std::string message = message_prefix(atlas) + describe(*first, set.charts[first->chart].number);
   if (count > 1) message += " (and " + std::to_string(count - 1) + " more such faces)";
-  throw RefineError(ErrorCode::BadInput, "input", message, first->chart, first->face);
+  throw RefineError(ErrorCode::BadInput, "input", message, set.charts[first->chart].number, first->face);
 }
 
 }  // namespace atlas_refine

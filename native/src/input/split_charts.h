@@ -12,7 +12,7 @@ namespace atlas_refine {
 /// The input atlas as charts. Chart UVs are the input's values, except that mirrored charts are turned over (u negated).
 struct ChartSet {
   std::vector<Chart> charts;        ///< ordered by their smallest input face
-  std::vector<CornerRef> corners;   ///< one per input corner
+  std::vector<CornerRef> corners;   ///< one per input corner; chart -1 where it is of none of these charts
   std::vector<bool> mirrored;       ///< one per chart
   std::vector<bool> mixed_winding;  ///< one per chart: neighbouring faces run along their edge in the same sense
   std::vector<FaceDefect> defects;  ///< faces whose triangles are not all positive; empty for a usable atlas
@@ -26,6 +26,9 @@ struct ChartSet {
 /// consistent in space and free of slivers, else by a triangulation of the UV polygon.
 /// Throws RefineError(BadInput) for arrays that do not fit together, indices out of range, NaN or no faces.
 ChartSet split_charts(const Atlas& atlas);
+
+/// These charts of the set alone, in this order; `seam_edges` and `seam_length` are not theirs and stay 0.
+ChartSet select_charts(const ChartSet& set, const std::vector<int>& charts);
 
 /// The same charts where the input's UVs lie: mirrored charts are turned back, their triangles still counterclockwise.
 std::vector<Chart> charts_as_placed(const ChartSet& set);

@@ -27,6 +27,9 @@ std::string place(const Vec2& p) {
   return text.str();
 }
 
+/// What messages call a chart: its number in the input where it has one.
+int name_of(const std::vector<Chart>& charts, int chart) { return charts[chart].number >= 0 ? charts[chart].number : chart; }
+
 void note(Validity& validity, const std::string& problem, int chart, int face = -1) {
   if (!validity.valid()) return;
   validity.problem = problem;
@@ -46,7 +49,8 @@ void check_triangles(const std::vector<Chart>& charts, Validity& validity) {
       last_face = face;
       ++validity.flipped_faces;
       const std::string what = sign == 0 ? " has no area in the UV map" : " is flipped in the UV map";
-      note(validity, "face " + std::to_string(face) + " of chart " + std::to_string(k) + what, static_cast<int>(k), face);
+      const int name = name_of(charts, static_cast<int>(k));
+      note(validity, "face " + std::to_string(face) + " of chart " + std::to_string(name) + what, name, face);
     }
   }
 }
@@ -66,16 +70,18 @@ bool in_contact(const BoundaryEdge& a, const BoundaryEdge& b) {
   return segments_touch(a.from, a.to, b.from, b.to);
 }
 
-void check_crossings(const std::vector<BoundaryEdge>& edges, const BoxTree& tree, Validity& validity) {
+void check_crossings(const std::vector<Chart>& charts, const std::vector<BoundaryEdge>& edges, const BoxTree& tree,
+                     Validity& validity) {
   for (int i = 0; i < static_cast<int>(edges.size()) && validity.crossings < kMostCrossings; ++i) {
     tree.visit_within(edges[i].box(), kTouching, -1, [&](int j) {
       if (j <= i || !in_contact(edges[i], edges[j])) return true;
       ++validity.crossings;
-      const int a = edges[i].chart, b = edges[j].chart;
+      const int a = name_of(charts, edges[i].chart), b = name_of(charts, edges[j].chart);
       note(validity,
-           a == b ? "the boundary of chart " + std::to_string(a) + " touches or crosses itself near " + place(edges[i].from)
-                  : "the boundaries of charts " + std::to_string(a) + " and " + std::to_string(b) + " touch or cross near " +
-                        place(edges[i].from),
+           edges[i].chart == edges[j].chart
+               ? "the boundary of chart " + std::to_string(a) + " touches or crosses itself near " + place(edges[i].from)
+               : "the boundaries of charts " + std::to_string(a) + " and " + std::to_string(b) + " touch or cross near " +
+                     place(edges[i].from),
            a);
       return validity.crossings < kMostCrossings;
     });
@@ -113,17 +119,19 @@ bool counterclockwise(const std::vector<BoundaryEdge>& edges, int first, int end
   return orientation(edges[before].from, edges[lowest].from, edges[lowest].to) > 0;
 }
 
-void check_windings(const std::vector<BoundaryEdge>& edges, const BoxTree& tree, Validity& validity) {
+void check_windings(const std::vector<Chart>& charts, const std::vector<BoundaryEdge>& edges, const BoxTree& tree,
+                    Validity& validity) {
   const int count = static_cast<int>(edges.size());
   for (int first = 0, end = 0; first < count; first = end) {
     while (end < count && edges[end].chart == edges[first].chart && edges[end].loop == edges[first].loop) ++end;
     int around = edges[first].chart;
     const int winding = winding_of_others(edges, tree, first, &around);
     if (winding == (counterclockwise(edges, first, end) ? 0 : 1)) continue;
-    const int chart = edges[first].chart;
+    const int chart = name_of(charts, edges[first].chart);
     note(validity,
-         around == chart ? "chart " + std::to_string(chart) + " overlaps itself near " + place(edges[first].from)
-                         : "chart " + std::to_string(chart) + " overlaps chart " + std::to_string(around),
+         around == edges[first].chart
+             ? "chart " + std::to_string(chart) + " overlaps itself near " + place(edges[first].from)
+             : "chart " + std::to_string(chart) + " overlaps chart " + std::to_string(name_of(charts, around)),
          chart);
   }
 }
@@ -135,8 +143,8 @@ Validity certify_charts(const std::vector<Chart>& charts) {
   check_triangles(charts, validity);
   const std::vector<BoundaryEdge> edges = boundary_edges(charts);
   const BoxTree tree = tree_over(edges);
-  check_crossings(edges, tree, validity);
-  if (validity.valid()) check_windings(edges, tree, validity);
+  check_crossings(charts, edges, tree, validity);
+  if (validity.valid()) check_windings(charts, edges, tree, validity);
   return validity;
 }
 

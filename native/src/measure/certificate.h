@@ -15,7 +15,7 @@ inline constexpr double kFarArc = 10 * 0.0025;
 /// Exact check of placed charts: every triangle strictly positive, no two boundary edges (of one chart or of two) that cross
 /// or touch except neighbours at their common vertex. Also finds charts that lie wholly inside another chart's interior, and
 /// charts that overlap themselves without crossing boundaries. Counting of crossings stops at 10000.
-/// `chart` and `face` of the answer refer to `charts` and Chart::triangle_faces.
+/// `chart` and `face` of the answer are Chart::number, or the index in `charts` where that is -1, and of Chart::triangle_faces.
 Validity certify_charts(const std::vector<Chart>& charts);
 
 /// Smallest distance between boundaries of two different charts, absolute; infinity with fewer than two charts.

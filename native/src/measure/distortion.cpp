@@ -123,6 +123,15 @@ Box uv_box(const std::vector<Chart>& charts) {
   return box;
 }
 
+Box box_of_points(const std::vector<Vec2>& points) {
+  Box box{points.front(), points.front()};
+  for (const Vec2& p : points) {
+    box.min = box.min.cwiseMin(p);
+    box.max = box.max.cwiseMax(p);
+  }
+  return box;
+}
+
 Box box_of_aspect(const Box& box, double aspect) {
   if (aspect == 0) return box;
   const double height = std::max(box.size().y(), box.size().x() / aspect);

@@ -35,6 +35,7 @@ double uv_area(const Chart& chart);
 double uv_area(const std::vector<Chart>& charts);
 
 Box uv_box(const std::vector<Chart>& charts);
+Box box_of_points(const std::vector<Vec2>& points);
 /// The smallest box of `aspect` (width / height) that holds `box`, same min corner; `box` itself where aspect is 0.
 Box box_of_aspect(const Box& box, double aspect);
 /// Sides of the box of this area and aspect; a square where aspect is 0.

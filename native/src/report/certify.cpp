@@ -22,15 +22,15 @@ double rounded_to_single(double value) {
   return stored;
 }
 
-/// UVs in the unit square as they will be stored, per piece.
-std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, const RefineOptions& options) {
+/// UVs in the unit square at `origin` as they will be stored, per piece.
+std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, const Vec2& origin, const RefineOptions& options) {
   const Box box = box_of_aspect(uv_box(pieces), options.box_aspect);
   const Vec2 sides = options.box_aspect > 0 ? box.size() : Vec2::Constant(box.size().maxCoeff());
   std::vector<std::vector<Vec2>> out;
   for (const Chart& piece : pieces) {
     std::vector<Vec2>& uvs = out.emplace_back();
     for (const Vec2& p : piece.uvs) {
-      Vec2 uv = (p - box.min).cwiseQuotient(sides).cwiseMin(1.0);
+      Vec2 uv = origin + (p - box.min).cwiseQuotient(sides).cwiseMin(1.0);
       if (options.stored == Stored::Float32) uv = Vec2(rounded_to_single(uv.x()), rounded_to_single(uv.y()));
       uvs.push_back(uv);
     }
@@ -38,14 +38,20 @@ std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, cons
   return out;
 }
 
-/// The faces of the output, and what each of their corners stands for.
+/// The faces of the charts that take part as they come out, and what each of their corners stands for.
 CutFaces faces_of(const InputAtlas& input, const CutAtlas& atlas, bool cut) {
   if (cut) return cut_faces(input.atlas, input.set, atlas);
   CutFaces out;
-  out.mesh.face_offsets = input.atlas.face_offsets;
-  out.mesh.corner_vertices = input.atlas.corner_vertices;
-  out.corners = input.set.corners;
   out.positions = input.atlas.positions;
+  out.mesh.face_offsets = {0};
+  for (int f = 0; f < input.atlas.face_count(); ++f) {
+    if (input.set.corners[input.atlas.face_offsets[f]].chart < 0) continue;
+    for (int c = input.atlas.face_offsets[f]; c < input.atlas.face_offsets[f + 1]; ++c) {
+      out.mesh.corner_vertices.push_back(input.atlas.corner_vertices[c]);
+      out.corners.push_back(input.set.corners[c]);
+    }
+    out.mesh.face_offsets.push_back(static_cast<int>(out.corners.size()));
+  }
   return out;
 }
 
@@ -60,7 +66,9 @@ class Refusal {
   std::string prefix_;
 };
 
-void require_valid(const InputAtlas& input, const Atlas& output, const ChartSet& set, std::size_t pieces, bool cut) {
+/// As many charts as pieces, with as many vertices, have the seams that were meant.
+void require_valid(const InputAtlas& input, const Atlas& output, const ChartSet& set, const std::vector<Chart>& pieces,
+                   bool cut) {
   const Refusal refuse(output);
   // Where faces of one chart are wound both ways, a part of it may be wound against the rest: it is not mirrored for that.
   const auto& mixed = input.set.mixed_winding;
@@ -71,8 +79,13 @@ void require_valid(const InputAtlas& input, const Atlas& output, const ChartSet&
   }
   const Validity validity = validate_split(oriented);
   if (!validity.valid()) refuse(validity.problem, validity.chart, validity.face);
-  const bool seams_kept = cut || set.seam_edges == input.set.seam_edges;
-  if (!seams_kept || set.charts.size() != pieces) refuse("its seams are not those that were meant");
+  const auto vertices = [](const std::vector<Chart>& charts) {
+    int count = 0;
+    for (const Chart& chart : charts) count += chart.vertex_count();
+    return count;
+  };
+  if (set.charts.size() != pieces.size() || vertices(set.charts) != vertices(pieces))
+    refuse("its seams are not those that were meant");
 }
 
 void require_gap(const Atlas& output, const std::vector<Chart>& stored, const Gap& gap, double box_aspect) {
@@ -164,21 +177,19 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
   CutFaces faces = faces_of(input, atlas, cut);
   Atlas output{input.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
   CertifiedAtlas out{.stored = meshes_of(atlas)};
-  const auto uvs = stored_uvs(out.stored, options);
-  for (const CornerRef& corner : faces.corners) output.corner_uvs.push_back(uvs[corner.chart][corner.vertex]);
+  out.uvs = stored_uvs(out.stored, input.origin, options);
+  for (const CornerRef& corner : faces.corners) output.corner_uvs.push_back(out.uvs[corner.chart][corner.vertex]);
   ChartSet set = split_charts(output);
-  require_valid(input, output, set, out.stored.size(), cut);
+  require_valid(input, output, set, out.stored, cut);
   stretch_to_texture(set.charts, options.box_aspect);
-  out.after = measure_split(output, set, options.box_aspect);
-  for (std::size_t p = 0; p < out.stored.size(); ++p) out.stored[p].uvs = uvs[p];
+  out.after = measure_split(set, options.box_aspect);
+  for (std::size_t p = 0; p < out.stored.size(); ++p) out.stored[p].uvs = out.uvs[p];
   stretch_to_texture(out.stored, options.box_aspect);
   require_gap(output, out.stored, gap, options.box_aspect);
   // The same triangles in the same order as the input's: only then can E_2 be told.
   out.after.distortion_to_input = dirichlet_sums_between(pieces_of_input(input, atlas), out.stored).best_energy();
   out.charts = chart_reports(input, out.stored, charts_of(atlas));
   if (cut) out.pieces = piece_reports(out.stored, atlas, faces);
-  out.corner_uvs = std::move(output.corner_uvs);
-  if (cut) out.cut = std::move(faces.mesh);
   return out;
 }
 

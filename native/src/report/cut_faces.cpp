@@ -211,7 +211,8 @@ std::vector<std::array<int, 2>> seams_of(const Sources& in, const UsedPoints& po
   std::vector<std::vector<int>> vertex_of_chart;  // the input's, of each chart's vertex
   for (const Chart& chart : in.set.charts) vertex_of_chart.emplace_back(chart.vertex_count(), -1);
   for (int c = 0; c < in.atlas.corner_count(); ++c)
-    vertex_of_chart[in.set.corners[c].chart][in.set.corners[c].vertex] = in.atlas.corner_vertices[c];
+    if (in.set.corners[c].chart >= 0)
+      vertex_of_chart[in.set.corners[c].chart][in.set.corners[c].vertex] = in.atlas.corner_vertices[c];
   std::vector<std::array<int, 2>> out;
   for (const Seam& seam : in.cut.seams) {
     const auto vertex = [&](int end) {
@@ -231,6 +232,7 @@ CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut)
   CutFaces out;
   out.mesh.face_offsets = {0};
   for (int f = 0; f < atlas.face_count(); ++f) {
+    if (parts[f].empty()) continue;
     const bool turned = is_turned(in, f);
     // A triangle with a corner in the middle of a side would be a polygon that other tools may lay flat: it is divided.
     const bool triangle = in.end(f) - in.begin(f) == 3;

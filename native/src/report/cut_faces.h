@@ -17,7 +17,8 @@ struct CutFaces {
 };
 
 /// The part of a face that lies in one piece becomes one face: a polygon with the face's winding where all its vertices lie on
-/// its outline, else its triangles. A face that nothing crosses keeps its corners in their order.
+/// its outline, else its triangles. Faces of charts that have no piece are left out. A face that nothing crosses keeps its
+/// corners in their order.
 CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut);
 
 }  // namespace atlas_refine

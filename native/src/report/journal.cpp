@@ -1,6 +1,7 @@
 // Stages and their pictures.
 #include "report/journal.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "measure/distortion.h"
@@ -18,7 +19,13 @@ void Journal::begin_stage(const std::string& stage, const ProgressRange& range) 
 
 void Journal::end_stage() {
   if (stage_.empty()) return;
-  timings.push_back({stage_, std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count()});
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const auto before = std::find_if(timings.begin(), timings.end(), [&](const StageTime& time) { return time.stage == stage_; });
+  if (before != timings.end()) {
+    before->seconds += seconds;
+  } else {
+    timings.push_back({stage_, seconds});
+  }
   stage_.clear();
 }
 
@@ -28,6 +35,19 @@ void Journal::show(const std::string& stage, const std::vector<Chart>& charts) {
   const std::string caption =
       "PE " + number_text("%.1f %%", 100 * measures.pe_fixed_aspect) + ", E_d " + number_text("%.4f", measures.distortion);
   debug_->receive(make_snapshot(stage, caption, charts, box_of_aspect(uv_box(charts), box_aspect_)));
+}
+
+void Journal::prefix_from(const Mark& mark, const std::string& prefix) {
+  for (std::size_t k = mark.fallbacks; k < fallbacks.size(); ++k) fallbacks[k].insert(0, prefix);
+  for (std::size_t k = mark.warnings; k < warnings.size(); ++k) warnings[k].insert(0, prefix);
+}
+
+std::string describe(const Repair& repair) {
+  std::string text = charts_named(repair.charts) + ": " + repair.what;
+  if (!repair.faces.empty())
+    text += " (" + std::to_string(repair.faces.size()) + (repair.faces.size() == 1 ? " face, " : " faces, first ") +
+            std::to_string(repair.faces.front()) + ")";
+  return repair.distortion_to_input > 1 ? text + ", E_2 " + number_text("%.4f", repair.distortion_to_input) : text;
 }
 
 std::string charts_named(const std::vector<int>& charts) {

@@ -28,7 +28,8 @@ class Journal {
   void end_stage();
 
   std::vector<StageTime> timings;
-  std::vector<std::string> repairs, fallbacks, warnings;
+  std::vector<Repair> repairs;
+  std::vector<std::string> fallbacks, warnings;
   int iterations = 0;  ///< Newton iterations, all stages
 
   /// Where the lists end now, and back to there: what an attempt that did not lead to the result has told.
@@ -41,6 +42,9 @@ class Journal {
     fallbacks.resize(mark.fallbacks);
     warnings.resize(mark.warnings);
   }
+
+  /// Puts `prefix` before all fallbacks and warnings since then.
+  void prefix_from(const Mark& mark, const std::string& prefix);
 
   bool draws() const { return debug_ != nullptr; }
   void show(const AtlasSnapshot& picture) { debug_->receive(picture); }

@@ -1,7 +1,9 @@
 // The public measure() and validate(): the atlas is split into charts, the charts are measured where they lie.
 #include "report/measure_atlas.h"
 
-#include "atlas_refine/error.h"
+#include <algorithm>
+
+#include "input/take_part.h"
 #include "measure/certificate.h"
 #include "measure/metrics.h"
 #include "report/options.h"
@@ -23,14 +25,51 @@ double bounding_box_diagonal(const Atlas& atlas) {
 
 Measures measure(const Atlas& atlas, double box_aspect) {
   check_aspect(box_aspect);
-  return read_atlas(atlas, box_aspect).measures;
+  const InputAtlas whole = read_atlas(atlas, box_aspect);
+  const Participants all = take_part(whole.set, {}, {});
+  Measures measures;
+  if (!all.parts.empty()) measures = part_of(whole, all.parts.front().charts, box_aspect).measures;
+  measure_seams(atlas, join_edges(atlas), measures);
+  return measures;
 }
 
 InputAtlas read_atlas(const Atlas& atlas, double box_aspect) {
-  InputAtlas input{atlas, split_charts(atlas), {}};
+  InputAtlas input{atlas, split_charts(atlas)};
   stretch_to_texture(input.set.charts, box_aspect);
-  input.measures = measure_split(atlas, input.set, box_aspect);
   return input;
+}
+
+InputAtlas part_of(const InputAtlas& whole, const std::vector<int>& charts, double box_aspect) {
+  InputAtlas part{whole.atlas, select_charts(whole.set, charts)};
+  part.measures = measure_split(part.set, box_aspect);
+  return part;
+}
+
+Measures combined(const std::vector<Measures>& parts, const std::vector<double>& areas) {
+  if (parts.empty()) return {};
+  Measures out = parts.front();
+  double total = areas.front();
+  for (std::size_t k = 1; k < parts.size(); ++k) {
+    const Measures& m = parts[k];
+    for (auto least : {&Measures::pe, &Measures::pe_fixed_aspect, &Measures::box_width, &Measures::box_height,
+                       &Measures::unit_square_share, &Measures::gap_between, &Measures::gap_within})
+      out.*least = std::min(out.*least, m.*least);
+    out.chart_count += m.chart_count;
+    out.small_charts += m.small_charts;
+    out.smallest_chart = std::min(out.smallest_chart * total, m.smallest_chart * areas[k]) / (total + areas[k]);
+    const double share = areas[k] / (total + areas[k]);
+    for (auto mean : {&Measures::distortion, &Measures::distortion_to_input, &Measures::stretch_99})
+      out.*mean += share * (m.*mean - out.*mean);
+    out.stretch_max = std::max(out.stretch_max, m.stretch_max);
+    total += areas[k];
+  }
+  return out;
+}
+
+void measure_seams(const Atlas& atlas, const EdgeJoins& joins, Measures& measures) {
+  measures.seam_edges = joins.seam_edges;
+  const double diagonal = bounding_box_diagonal(atlas);
+  measures.boundary_length = diagonal > 0 ? joins.seam_length / diagonal : 0;
 }
 
 void stretch_to_texture(std::vector<Chart>& charts, double box_aspect) {
@@ -40,13 +79,10 @@ void stretch_to_texture(std::vector<Chart>& charts, double box_aspect) {
   }
 }
 
-Measures measure_split(const Atlas& atlas, const ChartSet& set, double box_aspect) {
+Measures measure_split(const ChartSet& set, double box_aspect) {
   Measures measures = measure_charts(charts_as_placed(set), box_aspect);
   if (box_aspect > 0) measures.box_width /= box_aspect;
   measures.unit_square_share = measures.pe * measures.box_width * measures.box_height;
-  measures.seam_edges = set.seam_edges;
-  const double diagonal = bounding_box_diagonal(atlas);
-  measures.boundary_length = diagonal > 0 ? set.seam_length / diagonal : 0;
   return measures;
 }
 
@@ -59,13 +95,13 @@ Validity validate_split(const ChartSet& set) {
   for (std::size_t k = set.mirrored.size(); k-- > 0;) {
     if (!set.mirrored[k]) continue;
     ++validity.mirrored_charts;
-    validity.problem = "chart " + std::to_string(k) + " is mirrored";
-    validity.chart = static_cast<int>(k);
+    validity.chart = set.charts[k].number;
+    validity.problem = "chart " + std::to_string(validity.chart) + " is mirrored";
     validity.face = -1;
   }
   if (!set.defects.empty()) {
-    validity.problem = describe(set.defects.front());
-    validity.chart = set.defects.front().chart;
+    validity.chart = set.charts[set.defects.front().chart].number;
+    validity.problem = describe(set.defects.front(), validity.chart);
     validity.face = set.defects.front().face;
   }
   return validity;

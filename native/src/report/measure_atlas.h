@@ -2,6 +2,7 @@
 #pragma once
 
 #include "atlas_refine/measures.h"
+#include "input/join_edges.h"
 #include "input/split_charts.h"
 
 namespace atlas_refine {
@@ -10,19 +11,29 @@ namespace atlas_refine {
 /// stretched by W / H, so that lengths, areas and distortion are those on the texture; nothing changes where the aspect is free
 /// or square.
 struct InputAtlas {
-  const Atlas& atlas;  ///< as it was given
-  ChartSet set;
-  Measures measures;
+  const Atlas& atlas;  ///< the whole mesh
+  ChartSet set;        ///< of the charts that take part
+  Measures measures = {};
+  Vec2 origin = Vec2::Zero();  ///< lower left corner of the box that the result fills
 };
 
-/// Throws RefineError(BadInput) as split_charts() does.
+/// All charts, not measured. Throws RefineError(BadInput) as split_charts() does.
 InputAtlas read_atlas(const Atlas& atlas, double box_aspect);
+
+/// These charts of it as an atlas of their own, measured.
+InputAtlas part_of(const InputAtlas& whole, const std::vector<int>& charts, double box_aspect);
+
+/// Of all parts: the least PE, box and gaps, the means of distortion by area, sums and maxima of the rest. Seams are left out.
+Measures combined(const std::vector<Measures>& parts, const std::vector<double>& areas);
+
+/// Sets what is measured on seams.
+void measure_seams(const Atlas& atlas, const EdgeJoins& joins, Measures& measures);
 
 /// The charts' UVs in units of the texture.
 void stretch_to_texture(std::vector<Chart>& charts, double box_aspect);
 
-/// All of Measures but distortion_to_input, which is 1. The charts are in units of the texture.
-Measures measure_split(const Atlas& atlas, const ChartSet& set, double box_aspect);
+/// All of Measures but seams and distortion_to_input, which is 1. The charts are in units of the texture.
+Measures measure_split(const ChartSet& set, double box_aspect);
 
 Validity validate_split(const ChartSet& set);
 

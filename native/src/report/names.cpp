@@ -17,6 +17,22 @@ const char* to_string(Intervention intervention) {
   return "unknown";
 }
 
+const char* to_string(Fate fate) {
+  switch (fate) {
+    case Fate::Refined:
+      return "refined";
+    case Fate::Left:
+      return "left";
+    case Fate::Stacked:
+      return "stacked";
+    case Fate::Kept:
+      return "kept";
+    case Fate::Locked:
+      return "locked";
+  }
+  return "unknown";
+}
+
 const char* to_string(Ended ended) {
   switch (ended) {
     case Ended::NotRun:

@@ -18,6 +18,26 @@ void check_importance(const Atlas& atlas, const std::vector<double>& importance)
   for (double weight : importance) require(weight > 0 && std::isfinite(weight), "importance weights must be finite and above 0");
 }
 
+template <class Value>
+void check_size(const Atlas& atlas, const std::vector<Value>& values, const char* what) {
+  require(values.empty() || static_cast<int>(values.size()) == atlas.face_count(), what);
+}
+
+void check_edges(const Atlas& atlas, const std::vector<std::array<int, 2>>& edges, const char* what) {
+  const int count = static_cast<int>(atlas.positions.size());
+  for (const auto& [a, b] : edges) require(a >= 0 && a < count && b >= 0 && b < count, what);
+}
+
+void check_kept(const Atlas& atlas, const RefineOptions& options) {
+  check_size(atlas, options.groups, "groups must hold one number per face");
+  for (const int group : options.groups) require(group >= 0, "group numbers must not be negative");
+  for (const Vec2& origin : options.group_origins) require(origin.allFinite(), "group origins must be finite");
+  check_size(atlas, options.keep_shape, "keep_shape must hold one flag per face");
+  check_size(atlas, options.locked, "locked must hold one flag per face");
+  check_edges(atlas, options.no_seam, "no_seam names a vertex that the mesh does not have");
+  check_edges(atlas, options.prefer_seam, "prefer_seam names a vertex that the mesh does not have");
+}
+
 }  // namespace
 
 void check_aspect(double box_aspect) {
@@ -35,6 +55,7 @@ void check_options(const Atlas& atlas, const RefineOptions& options) {
   require(rectangles.candidates >= 1 && rectangles.candidates <= 1000000, "the candidates must number 1 to 1000000");
   require(rectangles.omega >= 0 && rectangles.omega <= 1, "omega must lie in [0, 1]");
   check_importance(atlas, options.importance);
+  check_kept(atlas, options);
   require(options.threads >= 0 && options.threads <= 1024, "the number of threads must lie in [0, 1024]");
 }
 

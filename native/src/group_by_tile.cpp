@@ -1,0 +1,46 @@
+// UDIM tiles as groups.
+#include <cmath>
+#include <map>
+
+#include "atlas_refine/refine.h"
+#include "input/check_atlas.h"
+#include "input/split_charts.h"
+#include "measure/distortion.h"
+
+namespace atlas_refine {
+namespace {
+
+using Tile = std::pair<double, double>;  // row, column
+
+std::string name_of(const Tile& tile) {
+  const auto [row, column] = tile;
+  const bool numbered = column >= 0 && column < 10 && row >= 0 && row < 900;
+  const auto whole = [](double value) { return std::to_string(static_cast<long long>(value)); };
+  return numbered ? whole(1001 + column + 10 * row) : "tile (" + whole(column) + ", " + whole(row) + ")";
+}
+
+}  // namespace
+
+TileGroups group_by_tile(const Atlas& atlas) {
+  check_arrays(atlas);
+  const Atlas usable = is_usable(atlas) ? atlas : set_unusable_aside(atlas).atlas;
+  const ChartSet set = split_charts(usable);
+  std::vector<Tile> tiles;
+  std::map<Tile, int> numbers;
+  for (const Chart& chart : charts_as_placed(set)) {
+    const Box box = box_of_points(chart.uvs);
+    const Vec2 centre = 0.5 * (box.min + box.max);
+    tiles.push_back({std::floor(centre.y()), std::floor(centre.x())});
+    numbers[tiles.back()] = 0;
+  }
+  TileGroups out{.groups = std::vector<int>(atlas.face_count(), 0), .origins = {}, .names = {}};
+  for (auto& [tile, number] : numbers) {
+    number = static_cast<int>(out.origins.size());
+    out.origins.emplace_back(tile.second, tile.first);
+    out.names.push_back(name_of(tile));
+  }
+  for (int f = 0; f < atlas.face_count(); ++f) out.groups[f] = numbers[tiles[set.corners[atlas.face_offsets[f]].chart]];
+  return out;
+}
+
+}  // namespace atlas_refine

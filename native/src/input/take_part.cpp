@@ -1,0 +1,72 @@
+// Charts without UV area aside, stacks found, the rest dealt out to atlases.
+#include "input/take_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "geometry/plane.h"
+#include "measure/distortion.h"
+
+namespace atlas_refine {
+namespace {
+
+constexpr double kCollapsed = 1e-6;
+constexpr double kOnEachOther = 1e-4;  // of the UV box: how near stacked charts lie
+
+bool has_flag(const Chart& chart, const std::vector<char>& flags) {
+  return !flags.empty() &&
+         std::any_of(chart.triangle_faces.begin(), chart.triangle_faces.end(), [&](int face) { return flags[face] != 0; });
+}
+
+int group_of(const Chart& chart, const std::vector<int>& groups) {
+  return groups.empty() ? 0 : groups[chart.triangle_faces.front()];
+}
+
+/// Locked charts first, then those that are not mirrored, then the others.
+std::vector<int> leaders_first(const ChartSet& set, std::vector<int> charts, const std::vector<char>& locked) {
+  const auto rank = [&](int k) { return has_flag(set.charts[k], locked) ? 0 : set.mirrored[k] ? 2 : 1; };
+  std::stable_sort(charts.begin(), charts.end(), [&](int a, int b) { return rank(a) < rank(b); });
+  return charts;
+}
+
+}  // namespace
+
+bool is_collapsed(const Chart& chart, double box_side) {
+  const double length = box_of_points(chart.uvs).size().maxCoeff();
+  double area = 0;
+  for (const Triangle& t : chart.triangles)
+    area += 0.5 * std::abs(doubled_area(chart.uvs[t[0]], chart.uvs[t[1]], chart.uvs[t[2]]));
+  return length <= kCollapsed * box_side || area <= kCollapsed * length * length;
+}
+
+Participants take_part(const ChartSet& set, const RefineOptions& options, const std::vector<char>& has_uvs) {
+  Participants out;
+  std::map<int, std::vector<int>> groups;
+  const double side = uv_box(set.charts).size().maxCoeff();
+  for (int k = 0; k < static_cast<int>(set.charts.size()); ++k) {
+    const Chart& chart = set.charts[k];
+    const bool without = !has_uvs.empty() && !has_uvs[chart.triangle_faces.front()];
+    if (options.collapsed == Collapsed::Leave && (without || is_collapsed(chart, side))) {
+      out.left.push_back({k, without ? "has no finite UVs" : "has no area in the UV map"});
+    } else {
+      groups[group_of(chart, options.groups)].push_back(k);
+    }
+  }
+  const bool stacks = options.stacks == Stacks::Keep && set.charts.size() > 1;
+  const std::vector<Chart> placed = stacks ? charts_as_placed(set) : std::vector<Chart>();
+  for (auto& [group, charts] : groups) {
+    std::vector<char> follows(set.charts.size(), 0);
+    if (stacks) {
+      for (Follower& follower : find_stacks(placed, leaders_first(set, charts, options.locked), kOnEachOther * side)) {
+        follows[follower.chart] = 1;
+        out.followers.push_back(std::move(follower));
+      }
+    }
+    std::erase_if(charts, [&](int k) { return follows[k] != 0; });
+    out.parts.push_back({group, std::move(charts)});
+  }
+  return out;
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,39 @@
+// Which charts are refined, in which atlas, and which are not.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "atlas_refine/options.h"
+#include "input/split_charts.h"
+#include "input/stacks.h"
+
+namespace atlas_refine {
+
+/// A chart that stays as it is, outside the atlas, and why.
+struct LeftChart {
+  int chart;
+  std::string reason;
+};
+
+/// The charts of one atlas.
+struct Part {
+  int group;                ///< of RefineOptions::groups, 0 without
+  std::vector<int> charts;  ///< in ascending order
+};
+
+struct Participants {
+  std::vector<Part> parts;  ///< in the order of their group numbers; none of them empty
+  std::vector<LeftChart> left;
+  std::vector<Follower> followers;  ///< of charts that take part
+};
+
+/// Left: charts whose UVs are all on a point or a line, unless they are to be embedded, and charts of faces without finite
+/// UVs (`has_uvs` false; empty: all have). Followers: as RefineOptions::stacks says, within one group; charts that are not
+/// mirrored, locked ones before, lead.
+Participants take_part(const ChartSet& set, const RefineOptions& options, const std::vector<char>& has_uvs);
+
+/// True where the chart's UVs lie on a point or a line: within 1e-6 of `box_side`, or of its own length.
+bool is_collapsed(const Chart& chart, double box_side);
+
+}  // namespace atlas_refine

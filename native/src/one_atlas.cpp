@@ -1,0 +1,183 @@
+// The road for one atlas, its certificate, and what is told of it.
+#include "one_atlas.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "atlas_refine/error.h"
+#include "input/check_atlas.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+#include "rectangles.h"
+#include "report/certify.h"
+#include "support/parallel.h"
+#include "whole.h"
+
+namespace atlas_refine {
+namespace {
+
+bool within_limit(const RefineOptions& options, double distortion) {
+  return !options.max_distortion || distortion <= *options.max_distortion * (1 + 1e-9);
+}
+
+/// The input is valid and at the bound; a gap counts only where one was asked for.
+bool holds_already(const InputAtlas& input, const RefineOptions& options) {
+  const Measures& before = input.measures;
+  if (before.pe_fixed_aspect < options.pe_bound || !within_limit(options, before.distortion)) return false;
+  if (!validate_split(input.set).valid()) return false;
+  const Vec2 box = box_of_aspect(uv_box(input.set.charts), options.box_aspect).size();
+  return !options.gap || gap_between_charts(input.set.charts) >= options.gap->length(box);
+}
+
+Outcome unchanged(const InputAtlas& input, const RefineOptions& options) {
+  Outcome out{.before = input.measures, .after = input.measures, .bound_met = true};
+  // An automatic gap asks nothing of an atlas that is left as it is.
+  out.gap = options.gap.value_or(Gap{std::min(Gap{}.value, input.measures.gap_between)});
+  out.charts = reports_of_input(input);
+  return out;
+}
+
+void note_mirrored(const InputAtlas& input, Journal& journal) {
+  std::vector<int> mirrored;
+  for (std::size_t c = 0; c < input.set.mirrored.size(); ++c) {
+    if (input.set.mirrored[c]) mirrored.push_back(input.set.charts[c].number);
+  }
+  if (!mirrored.empty()) journal.repairs.push_back({.what = "mirrored, turned over", .charts = mirrored});
+}
+
+struct CertifiedSolution {
+  Solution solution;
+  CertifiedAtlas atlas;
+};
+
+CertifiedSolution certified(const Refinement& run, Solution solution, const ProgressRange& range) {
+  run.journal.begin_stage("certify", range.part(0.96, 0.98));
+  CertifiedAtlas atlas = certify(run.input, solution.atlas, solution.gap, run.options);
+  return {std::move(solution), std::move(atlas)};
+}
+
+/// Where the charts would have been better off without cuts at the same bound, the warnings say so.
+void compare_with_whole(const Refinement& run, const CertifiedSolution& cut, const ProgressRange& range) {
+  constexpr double kWorthTelling = 1e-4;  // of E_d
+  run.journal.begin_stage("compare", range.part(0.98, 1));
+  const double own = cut.atlas.after.distortion;
+  const auto whole = distortion_without_cuts(run, own - kWorthTelling);
+  if (!whole) return;
+  run.journal.warnings.push_back("without cuts the charts hold the same bound with less distortion: E_d " +
+                                 number_text("%.4f", *whole) + " against " + number_text("%.4f", own));
+}
+
+/// The road that cuts; nothing where charts are better left whole, which the journal then says.
+std::optional<CertifiedSolution> solve_with_cuts(const Refinement& run, const ProgressRange& range) {
+  Journal& journal = run.journal;
+  const Journal::Mark before = journal.mark();
+  std::string failure;
+  try {
+    Attempt attempt = refine_by_rectangles(run, range.part(0, 0.96));
+    if (attempt.solution) {
+      CertifiedSolution result = certified(run, std::move(*attempt.solution), range);
+      if (!run.options.rectangles.until_input) compare_with_whole(run, result, range);
+      return result;
+    }
+    if (attempt.needless) {
+      journal.back_to(before);
+      journal.warnings.emplace_back("no chart needs a cut");
+      return std::nullopt;
+    }
+    failure = attempt.failure;
+  } catch (const RefineError& error) {
+    if (error.code() != ErrorCode::NotCertified) throw;
+    failure = error.what();
+  }
+  journal.back_to(before);
+  journal.fallbacks.push_back("charts were not cut into rectangles: " + failure);
+  return std::nullopt;
+}
+
+CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
+  RefineOptions options = run.options;
+  if (options.seams == Seams::Rectangles) {
+    if (auto cut = solve_with_cuts(run, range)) return std::move(*cut);
+    // Also where charts are not cut, that road goes on to the optimum under the bound.
+    options.relax = options.relax || !options.rectangles.until_input;
+  }
+  const Refinement whole{run.input, options, run.monitor, run.journal, run.threads};
+  return certified(whole, refine_whole(whole, range.part(0, 0.96)), range);
+}
+
+/// Why the result is not what was asked for; empty where it is.
+std::string shortfall(const InputAtlas& input, const RefineOptions& options, const Measures& after) {
+  const std::string figures =
+      "packing efficiency " + number_text("%.4f", after.pe_fixed_aspect) + " at E_d " + number_text("%.4f", after.distortion);
+  const std::string limit = options.max_distortion ? "a distortion of " + number_text("%g", *options.max_distortion) : "";
+  if (!within_limit(options, after.distortion))
+    return message_prefix(input.atlas) + "no atlas within " + limit + " was found; the least distorted one has " + figures;
+  if (after.pe_fixed_aspect >= options.pe_bound) return "";
+  return message_prefix(input.atlas) + "the bound " + number_text("%g", options.pe_bound) + " was not reached" +
+         (limit.empty() ? "" : " within " + limit) + "; the best found is " + figures;
+}
+
+Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, CertifiedSolution certified) {
+  Solution& solution = certified.solution;
+  Outcome out{.before = input.measures,
+              .after = certified.atlas.after,
+              .intervention = solution.intervention,
+              .gap = solution.gap,
+              .price = solution.price,
+              .ended = solution.ended,
+              .rectangles = solution.rectangles,
+              .charts = std::move(certified.atlas.charts),
+              .pieces = std::move(certified.atlas.pieces)};
+  const std::string missed = shortfall(input, options, out.after);
+  out.bound_met = missed.empty();
+  if (!out.bound_met && !(options.best_effort && within_limit(options, out.after.distortion)))
+    throw RefineError(ErrorCode::BoundNotReached, "squeeze", missed);
+  for (int c : solution.re_embedded) out.charts[c].re_embedded = true;
+  out.atlas = std::move(solution.atlas);
+  out.uvs = std::move(certified.atlas.uvs);
+  return out;
+}
+
+/// With kept densities the charts whose texel density the squeeze has changed all the same.
+void warn_of_density(const InputAtlas& input, const RefineOptions& options, const std::vector<ChartReport>& charts,
+                     Journal& journal) {
+  constexpr double kNotable = 0.1;
+  if (options.density != Density::Keep) return;
+  std::vector<int> changed;
+  double most = 0;
+  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+    const double change = std::abs(charts[c].density_after / charts[c].density_before - 1);
+    if (change > kNotable) changed.push_back(input.set.charts[c].number);
+    most = std::max(most, change);
+  }
+  if (!changed.empty())
+    journal.warnings.push_back(charts_named(changed) + ": bending changed the texel density by up to " +
+                               number_text("%.0f %%", 100 * most));
+}
+
+void warn_of_early_end(const Solution& solution, Journal& journal) {
+  const char* why = solution.ended == Ended::Stalled           ? "stalled"
+                    : solution.ended == Ended::OutOfIterations ? "ran out of iterations"
+                                                               : nullptr;
+  if (why) journal.warnings.push_back(std::string("the optimisation ") + why + ": the distortion may not be at its least");
+}
+
+}  // namespace
+
+Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const ProgressRange& range, Monitor& monitor,
+                   Journal& journal) {
+  require_no_flips(input.atlas, input.set);
+  note_mirrored(input, journal);
+  const bool holds = holds_already(input, options);
+  if (holds && !options.relax) return unchanged(input, options);
+
+  const Refinement run{input, options, monitor, journal, resolve_threads(options.threads)};
+  CertifiedSolution result = solve(run, range);
+  if (holds && result.atlas.after.distortion >= input.measures.distortion) return unchanged(input, options);
+  journal.show(to_string(result.solution.intervention), result.atlas.stored);
+  warn_of_early_end(result.solution, journal);
+  warn_of_density(input, options, result.atlas.charts, journal);
+  return outcome_of(input, options, std::move(result));
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,13 @@
+// One atlas: the least intervention that brings its charts to the bound.
+#pragma once
+
+#include "report/outcome.h"
+#include "report/solution.h"
+
+namespace atlas_refine {
+
+/// Throws RefineError as refine() does. `range` is its part of the whole call's progress.
+Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const ProgressRange& range, Monitor& monitor,
+                   Journal& journal);
+
+}  // namespace atlas_refine

@@ -1,0 +1,191 @@
+// Pieces of all parts in one CutAtlas, faces from that.
+#include "report/assemble.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "report/cut_faces.h"
+
+namespace atlas_refine {
+namespace {
+
+/// All pieces of the result, on the charts of the whole input.
+struct Whole {
+  CutAtlas atlas;
+  std::vector<std::vector<Vec2>> uvs;       // of each piece; empty where it keeps the input's
+  std::vector<std::vector<int>> pieces_of;  // of each chart
+};
+
+void add_piece(Piece piece, std::vector<Vec2> uvs, Whole& out) {
+  out.pieces_of[piece.chart].push_back(static_cast<int>(out.atlas.pieces.size()));
+  out.atlas.pieces.push_back(std::move(piece));
+  out.uvs.push_back(std::move(uvs));
+}
+
+void add_part(const RefinedPart& part, Whole& out) {
+  const int first = static_cast<int>(out.atlas.points.size());
+  for (SurfacePoint point : part.atlas.points) {
+    point.chart = part.charts[point.chart];
+    out.atlas.points.push_back(point);
+  }
+  const auto moved = [&](int end) { return end < 0 ? ~(~end + first) : end; };
+  for (const Seam& seam : part.atlas.seams)
+    out.atlas.seams.push_back({part.charts[seam.chart], {moved(seam.ends[0]), moved(seam.ends[1])}});
+  for (std::size_t p = 0; p < part.atlas.pieces.size(); ++p) {
+    Piece piece = part.atlas.pieces[p];
+    piece.chart = part.charts[piece.chart];
+    for (int& point : piece.points) point = point < 0 ? -1 : point + first;
+    add_piece(std::move(piece), part.uvs[p], out);
+  }
+}
+
+/// What of a leader lies on what of the chart that follows it.
+struct Mapping {
+  int chart;                  // the follower
+  std::vector<int> vertex;    // the own vertex on each of the leader's
+  std::vector<int> triangle;  // the own triangle on each of the leader's, where they lie on each other
+  bool alike = true;          // own triangles are wound as the leader's
+  std::map<int, int> points;  // the own point for one of the leader's
+};
+
+std::array<int, 3> sorted(std::array<int, 3> t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+Mapping mapping_of(const Follower& follower, const std::vector<Chart>& charts) {
+  const Chart &own = charts[follower.chart], &leader = charts[follower.leader];
+  Mapping map{follower.chart, std::vector<int>(leader.vertex_count(), -1), {}, true, {}};
+  for (int v = 0; v < own.vertex_count(); ++v) map.vertex[follower.vertices[v]] = v;
+  if (!follower.same_triangles) return map;
+  std::map<std::array<int, 3>, int> numbers;
+  for (std::size_t t = 0; t < own.triangles.size(); ++t) numbers[sorted(own.triangles[t])] = static_cast<int>(t);
+  for (const Triangle& t : leader.triangles)
+    map.triangle.push_back(numbers.at(sorted({map.vertex[t[0]], map.vertex[t[1]], map.vertex[t[2]]})));
+  const Triangle &first = leader.triangles.front(), &onto = own.triangles[map.triangle.front()];
+  const auto at = std::find(onto.begin(), onto.end(), map.vertex[first[0]]) - onto.begin();
+  map.alike = onto[(at + 1) % 3] == map.vertex[first[1]];
+  return map;
+}
+
+Support moved(Support support, const Mapping& map) {
+  for (int& v : support.vertices) v = v < 0 ? -1 : map.vertex[v];
+  return support;
+}
+
+int own_point(int leaders, Mapping& map, std::vector<SurfacePoint>& points) {
+  const auto [at, added] = map.points.emplace(leaders, static_cast<int>(points.size()));
+  if (added) points.push_back({map.chart, moved(points[leaders].support, map)});
+  return at->second;
+}
+
+/// Triangles of a piece are ordered by their faces.
+void sort_by_face(Piece& piece) {
+  const Piece before = piece;
+  std::vector<int> order(piece.sources.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return before.mesh.triangle_faces[a] < before.mesh.triangle_faces[b]; });
+  std::vector<RestTriangle> shapes;
+  for (std::size_t t = 0; t < order.size(); ++t) {
+    piece.sources[t] = before.sources[order[t]];
+    piece.mesh.triangles[t] = before.mesh.triangles[order[t]];
+    piece.mesh.triangle_faces[t] = before.mesh.triangle_faces[order[t]];
+    shapes.push_back(before.mesh.surface[order[t]]);
+  }
+  piece.mesh.surface = Surface(std::move(shapes));
+}
+
+/// A part of the leader as the part of the follower that lies on it.
+Piece followed(Piece piece, const Chart& own, Mapping& map, std::vector<SurfacePoint>& points) {
+  piece.chart = map.chart;
+  for (int& v : piece.vertices) v = v < 0 ? -1 : map.vertex[v];
+  for (int& p : piece.points) p = p < 0 ? -1 : own_point(p, map, points);
+  for (Support& support : piece.supports) support = moved(support, map);
+  for (std::size_t t = 0; t < piece.sources.size(); ++t) {
+    piece.sources[t] = map.triangle[piece.sources[t]];
+    piece.mesh.triangle_faces[t] = own.triangle_faces[piece.sources[t]];
+    if (!map.alike) std::swap(piece.mesh.triangles[t][1], piece.mesh.triangles[t][2]);
+  }
+  sort_by_face(piece);
+  return piece;
+}
+
+/// The whole chart at the places of its leader.
+void follow_whole(const Follower& follower, const std::vector<Chart>& charts, int piece, Whole& out) {
+  const std::vector<int>& stands_for = out.atlas.pieces[piece].vertices;
+  std::vector<int> at(stands_for.size());
+  for (std::size_t v = 0; v < stands_for.size(); ++v) at[stands_for[v]] = static_cast<int>(v);
+  std::vector<Vec2> uvs;
+  for (const int v : follower.vertices) uvs.push_back(out.uvs[piece][at[v]]);
+  Piece own = std::move(whole_atlas({charts[follower.chart]}).pieces.front());
+  own.chart = follower.chart;
+  add_piece(std::move(own), std::move(uvs), out);
+}
+
+void follow(const Follower& follower, const std::vector<Chart>& charts, Whole& out) {
+  const std::vector<int> pieces = out.pieces_of[follower.leader];
+  if (pieces.empty()) return;  // the leader stays as it is
+  const Piece& first = out.atlas.pieces[pieces.front()];
+  const bool divided = std::any_of(first.points.begin(), first.points.end(), [](int p) { return p >= 0; });
+  if (pieces.size() == 1 && !divided && first.mesh.vertex_count() == charts[follower.leader].vertex_count())
+    return follow_whole(follower, charts, pieces.front(), out);
+  Mapping map = mapping_of(follower, charts);
+  for (const int p : pieces)
+    add_piece(followed(out.atlas.pieces[p], charts[follower.chart], map, out.atlas.points), out.uvs[p], out);
+  const auto end = [&](int e) { return e < 0 ? ~own_point(~e, map, out.atlas.points) : map.vertex[e]; };
+  const std::vector<Seam> seams = out.atlas.seams;
+  for (const Seam& seam : seams) {
+    if (seam.chart == follower.leader) out.atlas.seams.push_back({follower.chart, {end(seam.ends[0]), end(seam.ends[1])}});
+  }
+}
+
+/// Charts that no part changed, with the input's UVs.
+void add_untouched(const std::vector<Chart>& charts, Whole& out) {
+  for (int k = 0; k < static_cast<int>(charts.size()); ++k) {
+    if (!out.pieces_of[k].empty()) continue;
+    Piece piece = std::move(whole_atlas({charts[k]}).pieces.front());
+    piece.chart = k;
+    add_piece(std::move(piece), {}, out);
+  }
+}
+
+/// The input's faces, the UVs of its corners from the pieces, which are whole charts.
+AssembledAtlas uncut(const InputAtlas& whole, const Whole& pieces) {
+  AssembledAtlas out{whole.atlas, std::nullopt};
+  for (std::size_t c = 0; c < out.mesh.corner_uvs.size(); ++c) {
+    const CornerRef& corner = whole.set.corners[c];
+    for (const int p : pieces.pieces_of[corner.chart]) out.mesh.corner_uvs[c] = pieces.uvs[p][corner.vertex];
+  }
+  return out;
+}
+
+AssembledAtlas divided(const InputAtlas& whole, Whole& pieces) {
+  add_untouched(whole.set.charts, pieces);
+  CutFaces faces = cut_faces(whole.atlas, whole.set, pieces.atlas);
+  AssembledAtlas out;
+  out.mesh = {whole.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
+  for (std::size_t c = 0; c < faces.corners.size(); ++c) {
+    const auto [p, vertex] = faces.corners[c];
+    out.mesh.corner_uvs.push_back(pieces.uvs[p].empty() ? whole.atlas.corner_uvs[faces.mesh.corner_sources[c][0]]
+                                                        : pieces.uvs[p][vertex]);
+  }
+  out.cut = std::move(faces.mesh);
+  return out;
+}
+
+}  // namespace
+
+AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts) {
+  const std::vector<Chart>& charts = whole.set.charts;
+  Whole pieces{.atlas = {}, .uvs = {}, .pieces_of = std::vector<std::vector<int>>(charts.size())};
+  for (const RefinedPart& part : parts) {
+    if (part.changed) add_part(part, pieces);
+  }
+  for (const Follower& follower : participants.followers) follow(follower, charts, pieces);
+  const bool cut = !pieces.atlas.seams.empty() || !pieces.atlas.points.empty();
+  return cut ? divided(whole, pieces) : uncut(whole, pieces);
+}
+
+}  // namespace atlas_refine

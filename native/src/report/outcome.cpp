@@ -1,0 +1,106 @@
+// Parts added up, and what is told of who took part.
+#include "report/outcome.h"
+
+#include <algorithm>
+#include <map>
+
+#include "report/certify.h"
+
+namespace atlas_refine {
+namespace {
+
+std::vector<ChartReport> chart_reports(const InputAtlas& whole, const Participants& participants, const std::vector<Done>& done) {
+  std::vector<ChartReport> out = reports_of_input(whole);
+  for (const Done& d : done) {
+    for (std::size_t k = 0; k < d.part.charts.size(); ++k) out[d.part.charts[k]] = d.outcome.charts[k];
+  }
+  for (const LeftChart& left : participants.left) {
+    out[left.chart].fate = Fate::Left;
+    out[left.chart].reason = left.reason;
+  }
+  for (const Follower& follower : participants.followers) {
+    ChartReport& own = out[follower.chart];
+    const ChartReport& leader = out[follower.leader];
+    own.fate = Fate::Stacked;
+    own.stacked_on = follower.leader;
+    own.distortion_after = leader.distortion_after;
+    own.stretch_max = leader.stretch_max;
+    own.density_after = leader.density_after;
+  }
+  return out;
+}
+
+std::vector<Measures> measures_of(const std::vector<Done>& done, Measures Outcome::*which) {
+  std::vector<Measures> out;
+  for (const Done& d : done) out.push_back(d.outcome.*which);
+  return out;
+}
+
+std::vector<double> areas_of(const InputAtlas& whole, const std::vector<Done>& done) {
+  std::vector<double> out;
+  for (const Done& d : done) {
+    double& area = out.emplace_back(0);
+    for (const int k : d.part.charts) area += whole.set.charts[k].surface.area();
+  }
+  return out;
+}
+
+RectangleReport sum(RectangleReport a, const RectangleReport& b) {
+  for (auto count : {&RectangleReport::tutte_charts, &RectangleReport::boxed_charts, &RectangleReport::holes_cut,
+                     &RectangleReport::extra_corners, &RectangleReport::trails})
+    a.*count += b.*count;
+  a.packed_pe = std::min(a.packed_pe, b.packed_pe);
+  return a;
+}
+
+}  // namespace
+
+std::string name_of(int group, const RefineOptions& options) {
+  const bool named = group < static_cast<int>(options.group_names.size()) && !options.group_names[group].empty();
+  return named ? options.group_names[group] : "group " + std::to_string(group);
+}
+
+void summarise(const InputAtlas& whole, const Participants& participants, const RefineOptions& options,
+               const std::vector<Done>& done, RefineResult& result) {
+  const std::vector<double> areas = areas_of(whole, done);
+  result.before = combined(measures_of(done, &Outcome::before), areas);
+  result.after = combined(measures_of(done, &Outcome::after), areas);
+  result.charts = chart_reports(whole, participants, done);
+  result.bound_met = true;
+  for (std::size_t k = 0; k < done.size(); ++k) {
+    const auto& [part, outcome] = done[k];
+    if (k == 0 || outcome.gap.value < result.gap.value) result.gap = outcome.gap;
+    result.intervention = std::max(result.intervention, outcome.intervention);
+    result.bound_met = result.bound_met && outcome.bound_met;
+    result.price = std::max(result.price, outcome.price);
+    result.ended = std::max(result.ended, outcome.ended);
+    if (outcome.rectangles)
+      result.rectangles = result.rectangles ? sum(*result.rectangles, *outcome.rectangles) : *outcome.rectangles;
+    for (PieceReport piece : outcome.pieces) {
+      piece.chart = part.charts[piece.chart];
+      result.pieces.push_back(piece);
+    }
+    if (!options.groups.empty())
+      result.groups.push_back({part.group, name_of(part.group, options), outcome.before.chart_count, outcome.intervention,
+                               outcome.bound_met, outcome.before, outcome.after, outcome.gap});
+  }
+}
+
+void tell_of(const Participants& participants, const std::vector<Done>& done, Journal& journal) {
+  std::map<std::string, std::vector<int>> left;
+  for (const LeftChart& chart : participants.left) left[chart.reason].push_back(chart.chart);
+  for (const auto& [reason, charts] : left)
+    journal.warnings.push_back(charts_named(charts) + ": " + reason + "; left as before, outside the atlas");
+  std::vector<int> stacked;
+  for (const Follower& follower : participants.followers) stacked.push_back(follower.chart);
+  if (!stacked.empty())
+    journal.warnings.push_back(charts_named(stacked) + ": on another chart of the same shape, kept there; the area counts once");
+  const auto parted = [](const Done& d) {
+    return d.outcome.intervention != Intervention::Unchanged && d.outcome.before.gap_between == 0;
+  };
+  if (std::any_of(done.begin(), done.end(), parted))
+    journal.warnings.emplace_back("charts overlapped or touched each other in the input; each has a place of its own now");
+  if (done.empty()) journal.warnings.emplace_back("no chart takes part: nothing was changed");
+}
+
+}  // namespace atlas_refine

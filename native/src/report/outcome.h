@@ -1,0 +1,46 @@
+// What came of each atlas of a call, and of all of them together.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "atlas_refine/result.h"
+#include "cut/cut_atlas.h"
+#include "input/take_part.h"
+#include "report/journal.h"
+#include "report/measure_atlas.h"
+
+namespace atlas_refine {
+
+/// What came of one atlas.
+struct Outcome {
+  Measures before, after;  ///< but for seams
+  Intervention intervention = Intervention::Unchanged;
+  bool bound_met = false;
+  Gap gap;
+  double price = 0;
+  Ended ended = Ended::NotRun;
+  std::optional<RectangleReport> rectangles;
+  std::vector<ChartReport> charts;
+  std::vector<PieceReport> pieces;
+  CutAtlas atlas;                      ///< empty where unchanged
+  std::vector<std::vector<Vec2>> uvs;  ///< of its pieces, as they will be stored
+};
+
+/// The outcome of one part of the input.
+struct Done {
+  Part part;
+  Outcome outcome;
+};
+
+/// What messages call a group.
+std::string name_of(int group, const RefineOptions& options);
+
+/// Fills in all of the result but UVs, faces, seams and what the journal holds.
+void summarise(const InputAtlas& whole, const Participants& participants, const RefineOptions& options,
+               const std::vector<Done>& done, RefineResult& result);
+
+/// Charts that go with others, that stay as they are, and that overlapped, in words.
+void tell_of(const Participants& participants, const std::vector<Done>& done, Journal& journal);
+
+}  // namespace atlas_refine
