@@ -3,6 +3,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -22,8 +23,14 @@ struct AtlasArrays {
 /// Copies the arrays. Throws RefineError(BadInput) that names the array whose shape or type does not fit.
 Atlas to_atlas(const AtlasArrays& arrays, std::string name);
 
-/// One number for each face, by which options say it; the length is the library's to check. Throws RefineError(BadOption).
-std::vector<double> to_weights(const pybind11::object& object, const char* name);
+/// Arrays of options, empty ones of any shape: one number, flag or whole number per face; pairs of vertices; triples of corners;
+/// points. Throw RefineError(BadOption) for another kind or shape.
+std::vector<double> to_weights(const pybind11::object& object, const std::string& name);
+std::vector<char> to_flags(const pybind11::object& object, const std::string& name);
+std::vector<int> to_numbers(const pybind11::object& object, const std::string& name);
+std::vector<std::array<int, 2>> to_edges(const pybind11::object& object, const std::string& name);
+std::vector<std::array<int, 3>> to_triangles(const pybind11::object& object, const std::string& name);
+std::vector<Vec2> to_points(const pybind11::object& object, const std::string& name);
 
 /// A new (rows, columns) array of what `entry(row, column)` gives.
 template <typename Number, typename Entry>

@@ -20,7 +20,8 @@ namespace {
 
 const std::string kRefineKeywords =
     "pe_bound seams box_aspect gap gap_unit max_distortion relax best_effort density stored sigma candidates omega until_input "
-    "reference importance seed threads name";
+    "reference importance seed threads name cut open_closed stacks collapsed rotate align_axes triangulate groups group_origins "
+    "group_names keep_shape locked no_seam prefer_seam triangles";
 
 constexpr const char* kArraysDoc = R"(
 
@@ -55,6 +56,21 @@ until_input      of "rectangles": stop where the objective is back at the input'
 reference        the shapes that the objective asks faces to keep: "surface" (default) or "input", its UVs; E_d is told and
                  limited on the surface either way
 importance       (F,) numbers > 0: each face's weight in the objective, only ratios count; None (default) = all 1
+cut              "split" (default): cuts divide the faces they cross; "edges": only edges of the input become seams
+open_closed      charts without a border, or with a handle, may be opened along edges; default False: they are left as they are
+stacks           charts of one shape that lie on each other: "keep" (default) them so, or "separate" them
+collapsed        charts whose UVs are a point or a line: "leave" (default) them as they are, or "embed" them
+rotate           turns of charts that are moved: "any" (default), "90" or "none"
+align_axes       turn moved charts whose longest border runs straight so that it lies on an axis; default False
+triangulate      cut faces become triangles throughout; default False
+groups           (F,) integers >= 0: the atlas that each face belongs to, each with a box of its own; None = one atlas
+group_origins    (G, 2): lower left corner of each group's box; None = (0, 0)
+group_names      what messages call the groups
+keep_shape       (F,) flags: charts with such a face are moved, never bent
+locked           (F,) flags: charts with such a face stay where they are, the others go around them in [0, 1]^2
+no_seam          (n, 2) pairs of vertices: edges that are never cut
+prefer_seam      (n, 2) pairs of vertices: edges that cuts along edges like to follow
+triangles        (n, 3) corners: how you divide faces of more than three corners, where you know
 stored           "double" (default) or "float32": the format you will store; the certificate holds for it
 seed             default 1; the same seed gives the same bits on any number of threads
 threads          0 (default) = as many as the machine has
@@ -91,7 +107,8 @@ class ProgressCallback {
 RefineResult call_refine(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
                          const py::object& corner_uvs, const py::kwargs& kwargs) {
   const Keywords keywords = read_keywords(kwargs, "refine", kRefineKeywords + " progress");
-  const Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  atlas.triangles = keywords.triangles;
   ProgressCallback callback(keywords.progress);
   std::optional<RefineResult> result;
   try {
@@ -108,7 +125,9 @@ RefineResult call_refine(const py::object& positions, const py::object& face_off
 std::unique_ptr<Job> start(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
                            const py::object& corner_uvs, const py::kwargs& kwargs) {
   const Keywords keywords = read_keywords(kwargs, "start", kRefineKeywords);
-  return std::make_unique<Job>(to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name), keywords.options);
+  Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  atlas.triangles = keywords.triangles;
+  return std::make_unique<Job>(std::move(atlas), keywords.options);
 }
 
 Measures call_measure(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,

@@ -1,11 +1,14 @@
 // Keyword arguments to RefineOptions.
 #include "options.h"
 
+#include <pybind11/stl.h>
+
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "arrays.h"
 
@@ -27,7 +30,7 @@ Value read(const py::handle& object, const std::string& keyword, const char* exp
 double number(const py::handle& object, const std::string& keyword) { return read<double>(object, keyword, "a number"); }
 
 template <typename Value>
-Value choice(const py::handle& object, const std::string& keyword, std::initializer_list<std::pair<const char*, Value>> choices) {
+Value choice(const py::handle& object, const std::string& keyword, const std::vector<std::pair<const char*, Value>>& choices) {
   const auto word = read<std::string>(object, keyword, "a string");
   std::string known;
   for (const auto& [name, value] : choices) {
@@ -39,10 +42,57 @@ Value choice(const py::handle& object, const std::string& keyword, std::initiali
 
 using Reader = std::function<void(Keywords&, const py::handle&, const std::string&)>;
 
-const std::map<std::string, Reader>& readers() {
+/// Reads an option of one value per face, per edge, ... with `convert`; None leaves it empty.
+template <typename Value>
+Reader array_reader(Value RefineOptions::*member, Value (*convert)(const py::object&, const std::string&)) {
+  return [=](Keywords& keywords, const py::handle& object, const std::string& keyword) {
+    if (!object.is_none()) keywords.options.*member = convert(py::reinterpret_borrow<py::object>(object), keyword);
+  };
+}
+
+Reader flag_reader(bool RefineOptions::*member) {
+  return [=](Keywords& keywords, const py::handle& object, const std::string& keyword) {
+    keywords.options.*member = read<bool>(object, keyword, "True or False");
+  };
+}
+
+template <typename Value>
+Reader choice_reader(Value RefineOptions::*member, std::initializer_list<std::pair<const char*, Value>> choices) {
+  const std::vector<std::pair<const char*, Value>> known(choices);
+  return [=](Keywords& keywords, const py::handle& object, const std::string& keyword) {
+    keywords.options.*member = choice<Value>(object, keyword, known);
+  };
+}
+
+/// What happens to charts that are not like the others, and what is kept as it is.
+void add_chart_readers(std::map<std::string, Reader>& table) {
+  table["cut"] = choice_reader<Cut>(&RefineOptions::cut, {{"split", Cut::Split}, {"edges", Cut::Edges}});
+  table["open_closed"] = flag_reader(&RefineOptions::open_closed);
+  table["stacks"] = choice_reader<Stacks>(&RefineOptions::stacks, {{"keep", Stacks::Keep}, {"separate", Stacks::Separate}});
+  table["collapsed"] =
+      choice_reader<Collapsed>(&RefineOptions::collapsed, {{"leave", Collapsed::Leave}, {"embed", Collapsed::Embed}});
+  table["rotate"] =
+      choice_reader<Rotate>(&RefineOptions::rotate, {{"any", Rotate::Any}, {"90", Rotate::QuarterTurns}, {"none", Rotate::None}});
+  table["align_axes"] = flag_reader(&RefineOptions::align_axes);
+  table["triangulate"] = flag_reader(&RefineOptions::triangulate);
+  table["groups"] = array_reader(&RefineOptions::groups, &to_numbers);
+  table["group_origins"] = array_reader(&RefineOptions::group_origins, &to_points);
+  table["group_names"] = [](Keywords& k, const py::handle& v, const std::string& s) {
+    if (!v.is_none()) k.options.group_names = read<std::vector<std::string>>(v, s, "a list of strings");
+  };
+  table["keep_shape"] = array_reader(&RefineOptions::keep_shape, &to_flags);
+  table["locked"] = array_reader(&RefineOptions::locked, &to_flags);
+  table["no_seam"] = array_reader(&RefineOptions::no_seam, &to_edges);
+  table["prefer_seam"] = array_reader(&RefineOptions::prefer_seam, &to_edges);
+  table["triangles"] = [](Keywords& k, const py::handle& v, const std::string& s) {
+    if (!v.is_none()) k.triangles = to_triangles(py::reinterpret_borrow<py::object>(v), s);
+  };
+}
+
+std::map<std::string, Reader> make_readers() {
   using H = const py::handle&;
   using S = const std::string&;
-  static const std::map<std::string, Reader> table = {
+  std::map<std::string, Reader> table = {
       {"pe_bound", [](Keywords& k, H v, S s) { k.options.pe_bound = number(v, s); }},
       {"seams",
        [](Keywords& k, H v, S s) {
@@ -58,7 +108,7 @@ const std::map<std::string, Reader>& readers() {
        }},
       {"importance",
        [](Keywords& k, H v, S s) {
-         if (!v.is_none()) k.options.importance = to_weights(py::reinterpret_borrow<py::object>(v), s.c_str());
+         if (!v.is_none()) k.options.importance = to_weights(py::reinterpret_borrow<py::object>(v), s);
        }},
       {"box_aspect", [](Keywords& k, H v, S s) { k.options.box_aspect = number(v, s); }},
       {"gap",
@@ -84,6 +134,12 @@ const std::map<std::string, Reader>& readers() {
       {"progress", [](Keywords& k, H v, S) { k.progress = py::reinterpret_borrow<py::object>(v); }},
       {"name", [](Keywords& k, H v, S s) { k.name = read<std::string>(v, s, "a string"); }},
   };
+  add_chart_readers(table);
+  return table;
+}
+
+const std::map<std::string, Reader>& readers() {
+  static const std::map<std::string, Reader> table = make_readers();
   return table;
 }
 

@@ -13,6 +13,7 @@ namespace atlas_refine::python {
 struct Keywords {
   RefineOptions options;
   std::string name;
+  std::vector<std::array<int, 3>> triangles;  ///< Atlas::triangles
   pybind11::object progress = pybind11::none();
 };
 

@@ -194,6 +194,7 @@ void bind_repairs_and_groups(py::module_& module) {
       .property("text", [](const Repair& repair) { return describe(repair); });
   ValueClass<GroupReport>(module, "GroupReport", "One atlas of several.")
       .field("group", &GroupReport::group)
+      .field("name", &GroupReport::name)
       .field("charts", &GroupReport::charts)
       .property("intervention", [](const GroupReport& group) { return to_string(group.intervention); })
       .field("bound_met", &GroupReport::bound_met)

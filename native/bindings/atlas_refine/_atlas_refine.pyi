@@ -3,7 +3,7 @@
 as_dict() of every class goes through json.dumps(): nested values are dicts, arrays are lists, infinity is None.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -193,6 +193,8 @@ class GroupReport:
     @property
     def group(self) -> int: ...
     @property
+    def name(self) -> str: ...
+    @property
     def charts(self) -> int: ...  # that took part
     @property
     def intervention(self) -> Literal["unchanged", "moved", "squeezed", "cut"]: ...
@@ -242,7 +244,7 @@ class RefineResult:
     @property
     def warnings(self) -> list[str]: ...
     @property
-    def timings(self) -> dict[str, float]: ...  # seconds per stage; where one came twice, after a fallback, of the last
+    def timings(self) -> dict[str, float]: ...  # seconds per stage, all attempts and groups together
     def as_dict(self) -> dict[str, Any]: ...
 
 class Job:
@@ -276,6 +278,21 @@ def refine(
     until_input: bool = False,
     reference: Literal["surface", "input"] = "surface",
     importance: ArrayLike | None = None,
+    cut: Literal["split", "edges"] = "split",
+    open_closed: bool = False,
+    stacks: Literal["keep", "separate"] = "keep",
+    collapsed: Literal["leave", "embed"] = "leave",
+    rotate: Literal["any", "90", "none"] = "any",
+    align_axes: bool = False,
+    triangulate: bool = False,
+    groups: ArrayLike | None = None,
+    group_origins: ArrayLike | None = None,
+    group_names: Sequence[str] | None = None,
+    keep_shape: ArrayLike | None = None,
+    locked: ArrayLike | None = None,
+    no_seam: ArrayLike | None = None,
+    prefer_seam: ArrayLike | None = None,
+    triangles: ArrayLike | None = None,
     seed: int = 1,
     threads: int = 0,
     progress: Callable[[Progress], bool | None] | None = None,
@@ -303,6 +320,21 @@ def start(
     until_input: bool = False,
     reference: Literal["surface", "input"] = "surface",
     importance: ArrayLike | None = None,
+    cut: Literal["split", "edges"] = "split",
+    open_closed: bool = False,
+    stacks: Literal["keep", "separate"] = "keep",
+    collapsed: Literal["leave", "embed"] = "leave",
+    rotate: Literal["any", "90", "none"] = "any",
+    align_axes: bool = False,
+    triangulate: bool = False,
+    groups: ArrayLike | None = None,
+    group_origins: ArrayLike | None = None,
+    group_names: Sequence[str] | None = None,
+    keep_shape: ArrayLike | None = None,
+    locked: ArrayLike | None = None,
+    no_seam: ArrayLike | None = None,
+    prefer_seam: ArrayLike | None = None,
+    triangles: ArrayLike | None = None,
     seed: int = 1,
     threads: int = 0,
     name: str = "",

@@ -109,6 +109,23 @@ std::vector<int> PointNumbers::of_chart(int chart, const SplitMesh& mesh) {
   return numbers;
 }
 
+void PointNumbers::know(int chart, const SplitMesh& mesh, const std::vector<int>& numbers) {
+  for (const auto& loop : mesh.boundary_loops()) {
+    for (const Side& s : loop) {
+      const int v = mesh.from(s);
+      if (v >= static_cast<int>(numbers.size()) || numbers[v] < 0) continue;
+      if (const auto place = place_of(space_points_[chart], mesh.supports[v]))
+        on_edges_[place->edge].emplace_back(place->along, numbers[v]);
+    }
+  }
+}
+
+std::vector<int> PointNumbers::of_added(int chart, const SplitMesh& mesh, std::vector<int> numbers) {
+  for (int v = static_cast<int>(numbers.size()); v < mesh.vertex_count(); ++v)
+    numbers.push_back(number(chart, mesh.supports[v], true));
+  return numbers;
+}
+
 int PointNumbers::number(int chart, const Support& support, bool on_boundary) {
   const auto place = place_of(space_points_[chart], support);
   const int next = static_cast<int>(points_.size());

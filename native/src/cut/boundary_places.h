@@ -28,6 +28,11 @@ class PointNumbers {
   /// Per vertex the index of its point, -1 where it is a vertex of the chart.
   std::vector<int> of_chart(int chart, const SplitMesh& mesh);
 
+  /// Takes over the numbers that the first vertices of a mesh have already.
+  void know(int chart, const SplitMesh& mesh, const std::vector<int>& numbers);
+  /// These, and the numbers of the vertices behind them, which lie on the boundary.
+  std::vector<int> of_added(int chart, const SplitMesh& mesh, std::vector<int> numbers);
+
  private:
   int number(int chart, const Support& support, bool on_boundary);
 

@@ -63,13 +63,6 @@ Piece piece_of(const SplitMesh& mesh, int chart, const Chart& source, std::vecto
   return piece;
 }
 
-SplitMesh mesh_of(const Piece& piece) {
-  SplitMesh mesh(piece.mesh);
-  mesh.sources = piece.sources;
-  mesh.supports = piece.supports;
-  return mesh;
-}
-
 /// The connected part of each triangle, numbered in the order of their first triangles.
 std::vector<int> parts_of(const SplitMesh& mesh) {
   std::vector<int> part(mesh.triangle_count(), -1);
@@ -188,6 +181,13 @@ CutAtlas cut_along(const CutAtlas& atlas, const std::vector<Chart>& sources, std
     for (Piece& part : Dealer(mesh, piece.chart).run(whole, points)) out.pieces.push_back(std::move(part));
   }
   return out;
+}
+
+SplitMesh mesh_of(const Piece& piece) {
+  SplitMesh mesh(piece.mesh);
+  mesh.sources = piece.sources;
+  mesh.supports = piece.supports;
+  return mesh;
 }
 
 std::vector<Chart> meshes_of(const CutAtlas& atlas) {

@@ -55,6 +55,9 @@ CutAtlas divided_atlas(const std::vector<SplitMesh>& meshes, const std::vector<C
 /// Takes pieces apart along the paths. `sources` are the charts of the input.
 CutAtlas cut_along(const CutAtlas& atlas, const std::vector<Chart>& sources, std::span<const SurfacePath> paths);
 
+/// A piece that can be divided and cut.
+SplitMesh mesh_of(const Piece& piece);
+
 std::vector<Chart> meshes_of(const CutAtlas& atlas);
 std::vector<int> charts_of(const CutAtlas& atlas);  ///< of each piece
 /// The atlas with other UVs, one array per piece.

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
+#include "cut/match_pieces.h"
 #include "report/cut_faces.h"
 
 namespace atlas_refine {
@@ -13,14 +13,16 @@ namespace {
 /// All pieces of the result, on the charts of the whole input.
 struct Whole {
   CutAtlas atlas;
-  std::vector<std::vector<Vec2>> uvs;       // of each piece; empty where it keeps the input's
+  std::vector<std::vector<Vec2>> uvs;       // of each piece
+  std::vector<char> own;                    // of each piece: these are the input's
   std::vector<std::vector<int>> pieces_of;  // of each chart
 };
 
-void add_piece(Piece piece, std::vector<Vec2> uvs, Whole& out) {
+void add_piece(Piece piece, std::vector<Vec2> uvs, Whole& out, bool own = false) {
   out.pieces_of[piece.chart].push_back(static_cast<int>(out.atlas.pieces.size()));
   out.atlas.pieces.push_back(std::move(piece));
   out.uvs.push_back(std::move(uvs));
+  out.own.push_back(own);
 }
 
 void add_part(const RefinedPart& part, Whole& out) {
@@ -80,23 +82,6 @@ int own_point(int leaders, Mapping& map, std::vector<SurfacePoint>& points) {
   return at->second;
 }
 
-/// Triangles of a piece are ordered by their faces.
-void sort_by_face(Piece& piece) {
-  const Piece before = piece;
-  std::vector<int> order(piece.sources.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return before.mesh.triangle_faces[a] < before.mesh.triangle_faces[b]; });
-  std::vector<RestTriangle> shapes;
-  for (std::size_t t = 0; t < order.size(); ++t) {
-    piece.sources[t] = before.sources[order[t]];
-    piece.mesh.triangles[t] = before.mesh.triangles[order[t]];
-    piece.mesh.triangle_faces[t] = before.mesh.triangle_faces[order[t]];
-    shapes.push_back(before.mesh.surface[order[t]]);
-  }
-  piece.mesh.surface = Surface(std::move(shapes));
-}
-
 /// A part of the leader as the part of the follower that lies on it.
 Piece followed(Piece piece, const Chart& own, Mapping& map, std::vector<SurfacePoint>& points) {
   piece.chart = map.chart;
@@ -108,7 +93,6 @@ Piece followed(Piece piece, const Chart& own, Mapping& map, std::vector<SurfaceP
     piece.mesh.triangle_faces[t] = own.triangle_faces[piece.sources[t]];
     if (!map.alike) std::swap(piece.mesh.triangles[t][1], piece.mesh.triangles[t][2]);
   }
-  sort_by_face(piece);
   return piece;
 }
 
@@ -135,19 +119,25 @@ void follow(const Follower& follower, const std::vector<Chart>& charts, Whole& o
   for (const int p : pieces)
     add_piece(followed(out.atlas.pieces[p], charts[follower.chart], map, out.atlas.points), out.uvs[p], out);
   const auto end = [&](int e) { return e < 0 ? ~own_point(~e, map, out.atlas.points) : map.vertex[e]; };
-  const std::vector<Seam> seams = out.atlas.seams;
-  for (const Seam& seam : seams) {
+  const std::size_t seams = out.atlas.seams.size();
+  for (std::size_t k = 0; k < seams; ++k) {
+    const Seam seam = out.atlas.seams[k];
     if (seam.chart == follower.leader) out.atlas.seams.push_back({follower.chart, {end(seam.ends[0]), end(seam.ends[1])}});
   }
 }
 
 /// Charts that no part changed, with the input's UVs.
-void add_untouched(const std::vector<Chart>& charts, Whole& out) {
+void add_untouched(const InputAtlas& whole, Whole& out) {
+  const std::vector<Chart>& charts = whole.set.charts;
+  std::vector<std::vector<Vec2>> given;
+  for (const Chart& chart : charts) given.emplace_back(chart.vertex_count());
+  for (std::size_t c = 0; c < whole.set.corners.size(); ++c)
+    given[whole.set.corners[c].chart][whole.set.corners[c].vertex] = whole.atlas.corner_uvs[c];
   for (int k = 0; k < static_cast<int>(charts.size()); ++k) {
     if (!out.pieces_of[k].empty()) continue;
     Piece piece = std::move(whole_atlas({charts[k]}).pieces.front());
     piece.chart = k;
-    add_piece(std::move(piece), {}, out);
+    add_piece(std::move(piece), std::move(given[k]), out, true);
   }
 }
 
@@ -162,14 +152,15 @@ AssembledAtlas uncut(const InputAtlas& whole, const Whole& pieces) {
 }
 
 AssembledAtlas divided(const InputAtlas& whole, Whole& pieces) {
-  add_untouched(whole.set.charts, pieces);
+  add_untouched(whole, pieces);
+  match_pieces(pieces.atlas, whole.set.charts, space_points(whole.atlas, whole.set), pieces.uvs);
   CutFaces faces = cut_faces(whole.atlas, whole.set, pieces.atlas);
   AssembledAtlas out;
   out.mesh = {whole.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
   for (std::size_t c = 0; c < faces.corners.size(); ++c) {
     const auto [p, vertex] = faces.corners[c];
-    out.mesh.corner_uvs.push_back(pieces.uvs[p].empty() ? whole.atlas.corner_uvs[faces.mesh.corner_sources[c][0]]
-                                                        : pieces.uvs[p][vertex]);
+    const bool own = faces.mesh.corner_weights[c][0] == 1 && pieces.own[p];
+    out.mesh.corner_uvs.push_back(own ? whole.atlas.corner_uvs[faces.mesh.corner_sources[c][0]] : pieces.uvs[p][vertex]);
   }
   out.cut = std::move(faces.mesh);
   return out;
@@ -179,7 +170,7 @@ AssembledAtlas divided(const InputAtlas& whole, Whole& pieces) {
 
 AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts) {
   const std::vector<Chart>& charts = whole.set.charts;
-  Whole pieces{.atlas = {}, .uvs = {}, .pieces_of = std::vector<std::vector<int>>(charts.size())};
+  Whole pieces{.atlas = {}, .uvs = {}, .own = {}, .pieces_of = std::vector<std::vector<int>>(charts.size())};
   for (const RefinedPart& part : parts) {
     if (part.changed) add_part(part, pieces);
   }

@@ -1,0 +1,227 @@
+// Who takes part: charts without UV area, faces without UVs, stacks, groups, tiles; what stays keeps its bits.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "atlas_refine/refine.h"
+#include "shapes.h"
+#include "small_atlases.h"
+
+namespace atlas_refine {
+namespace {
+
+const double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+Atlas star(double bend = 0.5) { return shapes::mesh(shapes::star(), 0.1, bend); }
+
+/// All UVs of an atlas moved.
+Atlas moved(Atlas atlas, const Vec2& by) {
+  for (Vec2& uv : atlas.corner_uvs) uv += by;
+  return atlas;
+}
+
+Atlas on_point(Atlas atlas, const Vec2& point) {
+  for (Vec2& uv : atlas.corner_uvs) uv = point;
+  return atlas;
+}
+
+bool same_bits(const Vec2& a, const Vec2& b) { return std::memcmp(a.data(), b.data(), 2 * sizeof(double)) == 0; }
+
+/// Corners [first, end) hold their input's bits.
+bool kept_bits(const Atlas& atlas, const RefineResult& result, int first, int end) {
+  for (int c = first; c < end; ++c) {
+    if (!same_bits(atlas.corner_uvs[c], result.corner_uvs[c])) return false;
+  }
+  return true;
+}
+
+/// The faces [first, end) with these UVs as an atlas of their own.
+Atlas part(const Atlas& atlas, const std::vector<Vec2>& uvs, int first, int end) {
+  Atlas out{.name = "", .positions = atlas.positions, .face_offsets = {0}, .corner_vertices = {}, .corner_uvs = {}};
+  for (int f = first; f < end; ++f) {
+    for (int c = atlas.face_offsets[f]; c < atlas.face_offsets[f + 1]; ++c) {
+      out.corner_vertices.push_back(atlas.corner_vertices[c]);
+      out.corner_uvs.push_back(uvs[c]);
+    }
+    out.face_offsets.push_back(out.corner_count());
+  }
+  return out;
+}
+
+bool says(const std::vector<std::string>& lines, const std::string& words) {
+  return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) { return line.find(words) != std::string::npos; });
+}
+
+TEST(Parts, ACollapsedChartStaysAsItIsAndIsCounted) {
+  const Atlas one = star(), other = on_point(shapes::quad_grid(3, 3), {0.25, 0.75});
+  const Atlas atlas = shapes::combine({one, other, moved(star(), {2, 0})});
+  const RefineResult result = refine(atlas, {.pe_bound = 0.75});
+  EXPECT_TRUE(result.bound_met);
+  ASSERT_EQ(result.charts.size(), 3u);
+  EXPECT_EQ(result.charts[0].fate, Fate::Refined);
+  EXPECT_EQ(result.charts[1].fate, Fate::Left);
+  EXPECT_EQ(result.charts[1].reason, "has no area in the UV map");
+  EXPECT_TRUE(kept_bits(atlas, result, one.corner_count(), one.corner_count() + other.corner_count()));
+  EXPECT_TRUE(says(result.warnings, "chart 1: has no area in the UV map"));
+  const Atlas out = part(atlas, result.corner_uvs, one.face_count() + other.face_count(), atlas.face_count());
+  EXPECT_TRUE(validate(out).valid());
+  EXPECT_GE(result.after.pe, 0.75);
+}
+
+TEST(Parts, ALineInUVsIsCollapsedToo) {
+  Atlas flat = shapes::quad_grid(4, 4);
+  for (Vec2& uv : flat.corner_uvs) uv.y() = 0.5;
+  const RefineResult result = refine(shapes::combine({star(), flat}), {.pe_bound = 0.7});
+  EXPECT_EQ(result.charts[1].fate, Fate::Left);
+}
+
+TEST(Parts, WhereAllIsCollapsedNothingChangesAndAWarningSaysSo) {
+  const Atlas atlas = on_point(shapes::quad_grid(3, 3), {0.5, 0.5});
+  const RefineResult result = refine(atlas);
+  EXPECT_EQ(result.intervention, Intervention::Unchanged);
+  EXPECT_TRUE(kept_bits(atlas, result, 0, atlas.corner_count()));
+  EXPECT_TRUE(says(result.warnings, "no chart takes part"));
+}
+
+TEST(Parts, FacesWithoutFiniteUVsKeepTheirBitsOutsideTheAtlas) {
+  const Atlas one = star();
+  Atlas other = shapes::quad_grid(3, 3);
+  for (Vec2& uv : other.corner_uvs) uv = {kNaN, std::numeric_limits<double>::infinity()};
+  const Atlas atlas = shapes::combine({one, other});
+  for (const Seams seams : {Seams::None, Seams::Rectangles}) {
+    const RefineResult result = refine(atlas, {.pe_bound = 0.75, .seams = seams});
+    EXPECT_GE(result.after.pe, 0.75);
+    EXPECT_EQ(result.charts.back().fate, Fate::Left);
+    const auto corners = static_cast<int>(result.corner_uvs.size());
+    for (int k = 1; k <= other.corner_count(); ++k)
+      EXPECT_TRUE(same_bits(atlas.corner_uvs[atlas.corner_count() - k], result.corner_uvs[corners - k]));
+  }
+}
+
+TEST(Parts, OnlyNaNIsRefusedByName) {
+  Atlas atlas = shapes::quad_grid(2, 2);
+  for (Vec2& uv : atlas.corner_uvs) uv = {kNaN, 0};
+  try {
+    refine(atlas);
+    FAIL();
+  } catch (const RefineError& error) {
+    EXPECT_EQ(error.code(), ErrorCode::BadInput);
+    EXPECT_EQ(error.face(), 0);
+  }
+}
+
+TEST(Parts, MessagesNameChartsOfTheInput) {
+  const Atlas atlas =
+      shapes::combine({on_point(shapes::quad_grid(1, 1), {0, 0}), star(), shapes::mirrored(moved(star(), {2, 0}))});
+  const RefineResult result = refine(atlas, {.pe_bound = 0.7});
+  ASSERT_FALSE(result.repairs.empty());
+  EXPECT_EQ(result.repairs.front().charts, std::vector<int>{2});
+  EXPECT_EQ(describe(result.repairs.front()), "chart 2: mirrored, turned over");
+}
+
+TEST(Stacks, ChartsOnEachOtherStayOnEachOther) {
+  const Atlas one = star();
+  for (const double noise : {0.0, 3e-6}) {
+    const Atlas atlas = shapes::combine({one, moved(one, {noise, -noise}), moved(shapes::mesh(shapes::s_shape(), 0.1), {2, 0})});
+    const RefineResult result = refine(atlas, {.pe_bound = 0.75});
+    EXPECT_EQ(result.charts[1].fate, Fate::Stacked);
+    EXPECT_EQ(result.charts[1].stacked_on, 0);
+    for (int c = 0; c < one.corner_count(); ++c) EXPECT_EQ(result.corner_uvs[c], result.corner_uvs[one.corner_count() + c]);
+    EXPECT_GE(result.after.pe, 0.75);
+    EXPECT_LE(result.after.pe, 1);
+    EXPECT_TRUE(validate(part(atlas, result.corner_uvs, one.face_count(), atlas.face_count())).valid());
+  }
+}
+
+TEST(Stacks, AMirroredHalfStaysOnTheOther) {
+  // The same UVs on a surface that is mirrored in space: wound the other way.
+  const Atlas one = star();
+  Atlas other = one;
+  for (int f = 0; f < other.face_count(); ++f) {
+    std::reverse(other.corner_vertices.begin() + other.face_offsets[f],
+                 other.corner_vertices.begin() + other.face_offsets[f + 1]);
+    std::reverse(other.corner_uvs.begin() + other.face_offsets[f], other.corner_uvs.begin() + other.face_offsets[f + 1]);
+  }
+  const Atlas atlas = shapes::combine({other, one});
+  const RefineResult result = refine(atlas, {.pe_bound = 0.75});
+  EXPECT_EQ(result.charts[0].fate, Fate::Stacked);  // the one that is not mirrored leads
+  EXPECT_TRUE(result.repairs.empty());
+  for (int f = 0; f < one.face_count(); ++f) {
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(result.corner_uvs[3 * f + k], result.corner_uvs[one.corner_count() + 3 * f + 2 - k]);
+  }
+}
+
+TEST(Stacks, AreCutAlike) {
+  const Atlas one = star();
+  const Atlas atlas = shapes::combine({one, one});
+  const RefineResult result = refine(atlas, {.pe_bound = 0.85, .seams = Seams::Rectangles});
+  ASSERT_EQ(result.intervention, Intervention::Cut);
+  ASSERT_TRUE(result.cut);
+  const int half = static_cast<int>(result.corner_uvs.size()) / 2;
+  ASSERT_EQ(static_cast<int>(result.corner_uvs.size()), 2 * half);
+  for (int c = 0; c < half; ++c) EXPECT_EQ(result.corner_uvs[c], result.corner_uvs[half + c]);
+  const int faces = static_cast<int>(result.cut->face_sources.size()) / 2;
+  for (int f = 0; f < faces; ++f) EXPECT_EQ(result.cut->face_sources[f] + one.face_count(), result.cut->face_sources[faces + f]);
+}
+
+TEST(Stacks, AreSeparatedWhereAsked) {
+  const Atlas one = star();
+  const Atlas atlas = shapes::combine({one, one});
+  const RefineResult result = refine(atlas, {.pe_bound = 0.75, .stacks = Stacks::Separate});
+  EXPECT_TRUE(validate([&] {
+                Atlas out = atlas;
+                out.corner_uvs = result.corner_uvs;
+                return out;
+              }())
+                  .valid());
+  EXPECT_TRUE(says(result.warnings, "overlapped"));
+}
+
+TEST(Stacks, ChartsThatOverlapOtherwiseArePartedWithAWord) {
+  const Atlas atlas = shapes::combine({star(), moved(shapes::mesh(shapes::s_shape(), 0.1), {0.1, 0})});
+  const RefineResult result = refine(atlas, {.pe_bound = 0.75});
+  EXPECT_EQ(result.charts[1].fate, Fate::Refined);
+  EXPECT_TRUE(says(result.warnings, "overlapped"));
+}
+
+TEST(Groups, EachHasABoxOfItsOwnAtTheSamePlace) {
+  const Atlas one = star(), other = shapes::mesh(shapes::s_shape(), 0.1);
+  const Atlas atlas = shapes::combine({one, other});
+  RefineOptions options{.pe_bound = 0.8, .stored = Stored::Float32};
+  options.groups.assign(atlas.face_count(), 7);
+  std::fill(options.groups.begin(), options.groups.begin() + one.face_count(), 3);
+  options.group_names = {"", "", "", "wood"};
+  const RefineResult result = refine(atlas, options);
+  ASSERT_EQ(result.groups.size(), 2u);
+  EXPECT_EQ(result.groups[0].name, "wood");
+  EXPECT_EQ(result.groups[1].name, "group 7");
+  for (const auto& [first, end] : {std::pair(0, one.face_count()), std::pair(one.face_count(), atlas.face_count())}) {
+    const Atlas out = part(atlas, result.corner_uvs, first, end);
+    EXPECT_TRUE(validate(out).valid());
+    const Measures m = measure(out);
+    EXPECT_GE(m.pe, 0.8);
+    EXPECT_EQ(std::max(m.box_width, m.box_height), 1);
+  }
+}
+
+TEST(Groups, TilesStayWhereTheyAre) {
+  const Atlas one = moved(star(), {0.5, 0.5}), other = moved(shapes::mesh(shapes::s_shape(), 0.1), {2.5, 1.5});
+  const Atlas atlas = shapes::combine({one, other});
+  const TileGroups tiles = group_by_tile(atlas);
+  EXPECT_EQ(tiles.names, (std::vector<std::string>{"1001", "1013"}));
+  RefineOptions options{.pe_bound = 0.75, .stored = Stored::Float32};
+  options.groups = tiles.groups;
+  options.group_origins = tiles.origins;
+  const RefineResult result = refine(atlas, options);
+  EXPECT_TRUE(result.bound_met);
+  for (int c = one.corner_count(); c < atlas.corner_count(); ++c) {
+    const Vec2 in_tile = result.corner_uvs[c] - Vec2(2, 1);
+    EXPECT_GE(in_tile.minCoeff(), 0);
+    EXPECT_LE(in_tile.maxCoeff(), 1);
+    EXPECT_EQ(result.corner_uvs[c].x(), static_cast<double>(static_cast<float>(result.corner_uvs[c].x())));
+  }
+}
+
+}  // namespace
+}  // namespace atlas_refine
