@@ -96,7 +96,7 @@ TEST(Limits, ChartsThatAreBoxedAndOverlapThemselvesAreEmbeddedFirst) {
   const RefineResult result = refine(atlas, {.pe_bound = 0.5, .seams = Seams::Rectangles});
   EXPECT_TRUE(result.charts[0].re_embedded);
   EXPECT_EQ(std::count_if(result.repairs.begin(), result.repairs.end(),
-                          [](const std::string& line) { return line.find("embedded anew") != std::string::npos; }),
+                          [](const Repair& repair) { return repair.what.find("embedded anew") != std::string::npos; }),
             1);
 }
 

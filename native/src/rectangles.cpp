@@ -46,7 +46,7 @@ LayoutOptions layout_options(const Refinement& run) {
 }
 
 void embed(const Refinement& run, int c, std::vector<Chart>& charts, std::vector<int>& embedded) {
-  charts[c] = re_embed(charts[c], run.threads, run.monitor);
+  charts[c] = re_embed(charts[c], charts[c].number, run.threads, run.monitor);
   run.journal.repairs.push_back({.what = "overlapped or touched itself, embedded anew", .charts = {charts[c].number}});
   embedded.push_back(c);
 }

@@ -29,7 +29,7 @@ std::vector<int> embed_where_needed(const Refinement& run, std::vector<Chart>& c
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
     run.monitor.report(static_cast<double>(c) / static_cast<double>(charts.size()));
     if (certify_charts({charts[c]}).valid()) continue;
-    charts[c] = re_embed(charts[c], run.threads, run.monitor);
+    charts[c] = re_embed(charts[c], charts[c].number, run.threads, run.monitor);
     run.journal.repairs.push_back({.what = "overlapped or touched itself, embedded anew", .charts = {charts[c].number}});
     embedded.push_back(c);
   }

@@ -40,9 +40,15 @@ struct ChartBoundary {
     const int a = space_points[mesh.supports[from].vertices[0]], b = space_points[mesh.supports[to].vertices[0]];
     return {std::min(a, b), std::max(a, b)};
   }
-  double along_of(int vertex, const SpaceEdge& edge) const {
-    if (const auto place = place_of(space_points, mesh.supports[vertex])) return place->along;
-    return space_points[mesh.supports[vertex].vertices[0]] == edge.low ? 0 : 1;
+  /// Nothing where the vertex does not lie on the edge: a side that runs across triangles has ends on two edges.
+  std::optional<double> along_of(int vertex, const SpaceEdge& edge) const {
+    const auto same = [&](const SpaceEdge& other) { return other.low == edge.low && other.high == edge.high; };
+    if (const auto place = place_of(space_points, mesh.supports[vertex]))
+      return same(place->edge) ? std::optional(place->along) : std::nullopt;
+    if (mesh.supports[vertex].vertices[1] >= 0) return std::nullopt;
+    const int point = space_points[mesh.supports[vertex].vertices[0]];
+    if (point == edge.low) return 0;
+    return point == edge.high ? std::optional(1.0) : std::nullopt;
   }
 };
 
@@ -63,11 +69,12 @@ std::optional<double> place_within(const ChartBoundary& boundary, int from, int 
   const SpaceEdge edge = boundary.edge_of(from, to);
   const auto found = places.find(edge);
   if (found == places.end()) return std::nullopt;
-  const double start = boundary.along_of(from, edge), end = boundary.along_of(to, edge);
+  const auto start = boundary.along_of(from, edge), end = boundary.along_of(to, edge);
+  if (!start || !end) return std::nullopt;
   for (const double along : found->second) {
-    const double t = (along - start) / (end - start);
+    const double t = (along - *start) / (*end - *start);
     const bool inside = t > kSamePlace && t < 1 - kSamePlace;
-    if (inside && std::abs(along - start) >= kSamePlace && std::abs(along - end) >= kSamePlace) return t;
+    if (inside && std::abs(along - *start) >= kSamePlace && std::abs(along - *end) >= kSamePlace) return t;
   }
   return std::nullopt;
 }

@@ -62,11 +62,11 @@ std::optional<Chart> part_touching(const Chart& chart) {
 
 }  // namespace
 
-Chart re_embed(const Chart& chart, int threads, Monitor& monitor) {
+Chart re_embed(const Chart& chart, int chart_index, int threads, Monitor& monitor) {
   if (auto parted = part_touching(chart)) return *parted;
   const auto fail = [&](const std::string& why) {
-    return RefineError(ErrorCode::BadInput, "embed", "chart " + std::to_string(chart.number) + " overlaps itself and " + why,
-                       chart.number, chart.triangle_faces.front());
+    return RefineError(ErrorCode::BadInput, "embed", "chart " + std::to_string(chart_index) + " overlaps itself and " + why,
+                       chart_index, chart.triangle_faces.front());
   };
   const int euler = mesh_topology(chart.vertex_count(), chart.triangles).euler_characteristic;
   if (euler + static_cast<int>(chart.boundary_loops.size()) != 2) throw fail("has a handle: no embedding without a cut exists");

@@ -151,9 +151,10 @@ AssembledAtlas uncut(const InputAtlas& whole, const Whole& pieces) {
   return out;
 }
 
-AssembledAtlas divided(const InputAtlas& whole, Whole& pieces) {
+AssembledAtlas divided(const InputAtlas& whole, bool several, Whole& pieces) {
   add_untouched(whole, pieces);
-  match_pieces(pieces.atlas, whole.set.charts, space_points(whole.atlas, whole.set), pieces.uvs);
+  // Within one part both sides of each seam are divided alike already.
+  if (several) match_pieces(pieces.atlas, whole.set.charts, space_points(whole.atlas, whole.set), pieces.uvs);
   CutFaces faces = cut_faces(whole.atlas, whole.set, pieces.atlas);
   AssembledAtlas out;
   out.mesh = {whole.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
@@ -176,7 +177,8 @@ AssembledAtlas assemble(const InputAtlas& whole, const Participants& participant
   }
   for (const Follower& follower : participants.followers) follow(follower, charts, pieces);
   const bool cut = !pieces.atlas.seams.empty() || !pieces.atlas.points.empty();
-  return cut ? divided(whole, pieces) : uncut(whole, pieces);
+  const bool several = parts.size() > 1 || !participants.left.empty() || !participants.followers.empty();
+  return cut ? divided(whole, several, pieces) : uncut(whole, pieces);
 }
 
 }  // namespace atlas_refine
