@@ -2,7 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "atlas_refine/refine.h"
+#include "atlas_refine/tiles.h"
 #include "input/check_atlas.h"
 #include "input/split_charts.h"
 #include "measure/distortion.h"

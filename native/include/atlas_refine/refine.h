@@ -12,6 +12,7 @@
 #include "atlas_refine/options.h"
 #include "atlas_refine/progress.h"
 #include "atlas_refine/result.h"
+#include "atlas_refine/tiles.h"
 
 namespace atlas_refine {
 
@@ -21,16 +22,6 @@ namespace atlas_refine {
 /// W:H they are those of a texture of W:H: all lengths (gap, distortion, density) are taken with u stretched by W / H.
 RefineResult refine(const Atlas& atlas, const RefineOptions& options = {}, const ProgressFn& progress = {},
                     DebugSink* debug = nullptr);
-
-/// UDIM tiles as groups for RefineOptions: a chart belongs to the tile that the centre of its UV box lies in. Charts that are
-/// larger than a tile, or lie below zero, are dealt out likewise.
-struct TileGroups {
-  std::vector<int> groups;         ///< one per face, numbers from 0 on in the order of (v, u)
-  std::vector<Vec2> origins;       ///< of each group: the tile's lower left corner
-  std::vector<std::string> names;  ///< "1001", or "tile (-1, 0)" where UDIM has no number
-};
-/// Throws RefineError(BadInput) for arrays that do not fit together or hold no finite UV.
-TileGroups group_by_tile(const Atlas& atlas);
 
 /// The program's version, "major.minor.patch".
 const char* version();
