@@ -14,6 +14,8 @@ namespace {
 
 // How far the barrier is felt beyond the gap, as a fraction of the box diagonal.
 constexpr double kRangeFraction = 0.0025;
+// No wider than this part of a chart's mean size: else small charts feel all others at once, and steps stall.
+constexpr double kRangeOfChart = 0.05;
 // A step moves no vertex further than this fraction of the surface's size, which bounds the search for collisions.
 constexpr double kLongestMove = 0.25;
 constexpr double kBoxGrowth = 0.0035;  // of a box of fixed aspect
@@ -43,7 +45,8 @@ void flatten(const std::vector<Chart>& charts, ReduceModel& model) {
 void place_start(ReduceModel& model) {
   const Box tight = box_of(model.start.x);
   const Vec2 size = box_of_aspect(tight, model.aspect).size();
-  model.range = kRangeFraction * size.norm();
+  const auto pieces = static_cast<double>(model.first_vertex.size() - 1);
+  model.range = std::min(kRangeFraction * size.norm(), kRangeOfChart * std::sqrt(size.prod() / pieces));
   model.open_unit = model.gap.unit == Gap::Unit::BoxDiagonal ? size.norm() : size.maxCoeff();
   // The box grows a little, so that no chart touches a wall, and by less than kStartGap: the gap follows it.
   const Vec2 slack = model.aspect == 0 ? Vec2(Vec2::Constant(0.5 * model.range)) : Vec2(0.5 * kBoxGrowth * size);

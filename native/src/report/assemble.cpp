@@ -5,6 +5,7 @@
 #include <map>
 
 #include "cut/match_pieces.h"
+#include "report/certify.h"
 #include "report/cut_faces.h"
 
 namespace atlas_refine {
@@ -151,7 +152,7 @@ AssembledAtlas uncut(const InputAtlas& whole, const Whole& pieces) {
   return out;
 }
 
-AssembledAtlas divided(const InputAtlas& whole, bool several, Whole& pieces) {
+AssembledAtlas divided(const InputAtlas& whole, bool several, Stored stored, Whole& pieces) {
   add_untouched(whole, pieces);
   // Within one part both sides of each seam are divided alike already.
   if (several) match_pieces(pieces.atlas, whole.set.charts, space_points(whole.atlas, whole.set), pieces.uvs);
@@ -161,7 +162,8 @@ AssembledAtlas divided(const InputAtlas& whole, bool several, Whole& pieces) {
   for (std::size_t c = 0; c < faces.corners.size(); ++c) {
     const auto [p, vertex] = faces.corners[c];
     const bool own = faces.mesh.corner_weights[c][0] == 1 && pieces.own[p];
-    out.mesh.corner_uvs.push_back(own ? whole.atlas.corner_uvs[faces.mesh.corner_sources[c][0]] : pieces.uvs[p][vertex]);
+    out.mesh.corner_uvs.push_back(own ? whole.atlas.corner_uvs[faces.mesh.corner_sources[c][0]]
+                                      : as_stored(pieces.uvs[p][vertex], stored));
   }
   out.cut = std::move(faces.mesh);
   return out;
@@ -169,7 +171,8 @@ AssembledAtlas divided(const InputAtlas& whole, bool several, Whole& pieces) {
 
 }  // namespace
 
-AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts) {
+AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts,
+                        Stored stored) {
   const std::vector<Chart>& charts = whole.set.charts;
   Whole pieces{.atlas = {}, .uvs = {}, .own = {}, .pieces_of = std::vector<std::vector<int>>(charts.size())};
   for (const RefinedPart& part : parts) {
@@ -178,7 +181,7 @@ AssembledAtlas assemble(const InputAtlas& whole, const Participants& participant
   for (const Follower& follower : participants.followers) follow(follower, charts, pieces);
   const bool cut = !pieces.atlas.seams.empty() || !pieces.atlas.points.empty();
   const bool several = parts.size() > 1 || !participants.left.empty() || !participants.followers.empty();
-  return cut ? divided(whole, several, pieces) : uncut(whole, pieces);
+  return cut ? divided(whole, several, stored, pieces) : uncut(whole, pieces);
 }
 
 }  // namespace atlas_refine

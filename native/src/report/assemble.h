@@ -26,6 +26,7 @@ struct AssembledAtlas {
 
 /// Followers get the UVs, and the cuts, of their leaders; charts of no part keep their own UVs, bit for bit. Where some part is
 /// cut all of its followers must have the triangles of their leaders.
-AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts);
+AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts,
+                        Stored stored);
 
 }  // namespace atlas_refine

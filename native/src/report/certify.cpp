@@ -15,13 +15,6 @@
 namespace atlas_refine {
 namespace {
 
-/// The value that is left after storing it in single precision. GCC 12 drops the plain round trip where it vectorises two of
-/// them.
-double rounded_to_single(double value) {
-  volatile float stored = static_cast<float>(value);
-  return stored;
-}
-
 /// UVs in the unit square at `origin` as they will be stored, per piece.
 std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, const Vec2& origin, const RefineOptions& options) {
   const Box box = box_of_aspect(uv_box(pieces), options.box_aspect);
@@ -30,9 +23,8 @@ std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, cons
   for (const Chart& piece : pieces) {
     std::vector<Vec2>& uvs = out.emplace_back();
     for (const Vec2& p : piece.uvs) {
-      Vec2 uv = origin + (p - box.min).cwiseQuotient(sides).cwiseMin(1.0);
-      if (options.stored == Stored::Float32) uv = Vec2(rounded_to_single(uv.x()), rounded_to_single(uv.y()));
-      uvs.push_back(uv);
+      const Vec2 uv = origin + (p - box.min).cwiseQuotient(sides).cwiseMin(1.0);
+      uvs.push_back(as_stored(uv, options.stored));
     }
   }
   return out;
@@ -171,6 +163,13 @@ std::vector<Chart> pieces_of_input(const InputAtlas& input, const CutAtlas& atla
 }
 
 }  // namespace
+
+Vec2 as_stored(const Vec2& uv, Stored stored) {
+  if (stored == Stored::Double) return uv;
+  // GCC 12 drops the plain round trip where it vectorises two of them.
+  volatile float u = static_cast<float>(uv.x()), v = static_cast<float>(uv.y());
+  return {u, v};
+}
 
 CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap& gap, const RefineOptions& options) {
   const bool cut = !atlas.seams.empty() || !atlas.points.empty();
