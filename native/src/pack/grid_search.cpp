@@ -20,6 +20,8 @@ constexpr int kManyCharts = 200;
 /// Beyond this many charts even compaction does.
 constexpr int kTooManyToCompact = 1000;
 constexpr int kFinalists = 4;
+/// Work of all greedy starts in words looked at: four times what atlases of many charts need, a second of tall strips.
+constexpr std::int64_t kGreedyWork = 500'000'000;
 /// Cells are so large that no chart is longer than this many sides of the grid: a needle's length is no measure of the area.
 constexpr double kLongestChart = 16;
 
@@ -149,13 +151,21 @@ class Search {
     best_ = std::move(placements);
   }
 
+  GridLayout greedy_layout(int start) {
+    return place_greedily(grid_.charts, random_rule(grid_, options_.box_aspect, Rng(options_.seed, 0, start)), watch_);
+  }
+
+  /// The first start tells what the others cost.
   void start_greedily(int starts) {
-    layouts_.resize(starts);
     watch_.begin_part(0.05, 0.3);
-    parallel_ranges(starts, threads_, 1, [&](int begin, int end) {
+    layouts_ = {greedy_layout(0)};
+    const std::int64_t affordable = kGreedyWork / std::max<std::int64_t>(1, layouts_[0].work);
+    starts = static_cast<int>(std::clamp<std::int64_t>(affordable, std::min(kFinalists, starts), starts));
+    layouts_.resize(starts);
+    parallel_ranges(starts - 1, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         watch_.begin_task(k - begin, end - begin);
-        layouts_[k] = place_greedily(grid_.charts, random_rule(grid_, options_.box_aspect, Rng(options_.seed, 0, k)), watch_);
+        layouts_[k + 1] = greedy_layout(k + 1);
       }
     });
     rank();
