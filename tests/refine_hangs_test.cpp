@@ -79,14 +79,14 @@ TEST(Hangs, APolygonThatIsOnePointInSpaceIsCutOrSqueezed) {
   refine_validly(shapes::combine({one, other}), cut_options(20));
 }
 
-TEST(Hangs, ANeedleIsRefusedByItsFace) {
+TEST(Hangs, ANeedleIsLeftAndTheOthersAreNot) {
   for (const double reach : {1e7, 1e9}) {
-    const Atlas atlas = squares_and_needle(reach);
     for (const Seams seams : {Seams::None, Seams::Rectangles}) {
-      const RefineError error = testing::refusal(atlas, {.pe_bound = 0.5, .seams = seams, .best_effort = true});
-      EXPECT_EQ(error.code(), ErrorCode::BadInput);
-      EXPECT_EQ(error.chart(), 2);
-      EXPECT_EQ(error.face(), atlas.face_count() - 1);
+      const RefineResult result = refine(squares_and_needle(reach), {.pe_bound = 0.5, .seams = seams, .best_effort = true});
+      ASSERT_EQ(result.charts.size(), 3U);
+      EXPECT_EQ(result.charts[0].fate, Fate::Refined);
+      EXPECT_EQ(result.charts[1].fate, Fate::Refined);
+      EXPECT_EQ(result.charts[2].fate, Fate::Left);
     }
   }
 }
