@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cut_checks.h"
+#include "output_atlas.h"
 #include "refine_checks.h"
 #include "small_atlases.h"
 #include "support/rng.h"
@@ -12,6 +13,7 @@
 namespace atlas_refine {
 namespace {
 
+using testing::output;
 using testing::refusal;
 using testing::same_bits;
 
@@ -21,21 +23,6 @@ RefineOptions rectangles(double pe_bound = 0.8) {
   options.seams = Seams::Rectangles;
   options.rectangles.candidates = 40;
   return options;
-}
-
-/// The mesh that the result describes; the input's where nothing was cut.
-Atlas output(const Atlas& atlas, const RefineResult& result) {
-  Atlas out = atlas;
-  out.corner_uvs = result.corner_uvs;
-  if (!result.cut) return out;
-  out.face_offsets = result.cut->face_offsets;
-  out.corner_vertices = result.cut->corner_vertices;
-  for (const NewVertex& vertex : result.cut->new_vertices) {
-    Vec3 sum = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) sum += vertex.weights[k] * atlas.positions[atlas.corner_vertices[vertex.corners[k]]];
-    out.positions.push_back(sum);
-  }
-  return out;
 }
 
 void expect_sound_output(const Atlas& atlas, const RefineResult& result, const RefineOptions& options) {

@@ -1,9 +1,12 @@
 // The program atlas-refine: mesh files in, the same files with a better atlas out.
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <list>
 #include <memory>
+#include <new>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -188,9 +191,8 @@ int run_measure(const CommandLine& line) {
     Validity validity = validate(files.atlas());
     validity.problem = files.words_in_file(validity.problem, validity.face);
     validity.face = files.number_in_file(validity.face);
-    std::string text =
-        line.json ? measures_json(line.inputs.front().string(), measures, validity) : measures_table(measures, validity);
-    for (const std::string& note : files.notes()) text += line.json ? "" : "warning: " + note + "\n";
+    const std::string text = line.json ? measures_json(line.inputs.front().string(), measures, validity, files.notes())
+                                       : measures_table(measures, validity, files.notes());
     std::fputs(text.c_str(), stdout);
     return validity.valid() ? exit_done : exit_not_valid;
   } catch (const RefineError& error) {
@@ -198,8 +200,7 @@ int run_measure(const CommandLine& line) {
   }
 }
 
-int run(int argc, char** argv) {
-  const CommandLine line = parse_command_line(argc, argv);
+int run_job(const CommandLine& line) {
   switch (line.job) {
     case CommandLine::Job::Refine:
       return run_refine(line);
@@ -210,6 +211,18 @@ int run(int argc, char** argv) {
       return exit_done;
   }
   return exit_internal_error;
+}
+
+int run(int argc, char** argv) {
+  const CommandLine line = parse_command_line(argc, argv);
+  int code = exit_internal_error;
+  try {
+    code = run_job(line);
+  } catch (const std::bad_alloc&) {
+    return complain(line.inputs.front().string() + ": not enough memory for a mesh of this size", exit_bad_input);
+  }
+  if (std::fflush(stdout) != 0) throw OutputError("standard output", std::string("cannot be written: ") + std::strerror(errno));
+  return code;
 }
 
 }  // namespace

@@ -249,15 +249,17 @@ std::string summary(const std::vector<FileReport>& files, const RefineResult& re
   return text;
 }
 
-std::string measures_json(const std::string& input, const Measures& measures, const Validity& validity) {
+std::string measures_json(const std::string& input, const Measures& measures, const Validity& validity,
+                          const std::vector<std::string>& notes) {
   return dump({{"program", "atlas-refine"},
                {"version", version()},
                {"input", input},
                {"measures", to_json(measures)},
-               {"validity", to_json(validity)}});
+               {"validity", to_json(validity)},
+               {"notes", notes}});
 }
 
-std::string measures_table(const Measures& m, const Validity& validity) {
+std::string measures_table(const Measures& m, const Validity& validity, const std::vector<std::string>& notes) {
   std::string text;
   const auto row = [&](const char* name, const std::string& value) { text += print("%-34s ", name) + value + "\n"; };
   row("packing efficiency (PE)", print("%.4f", m.pe));
@@ -278,6 +280,7 @@ std::string measures_table(const Measures& m, const Validity& validity) {
   if (!validity.valid())
     row("", print("%d flipped faces, %d mirrored charts, %d crossings", validity.flipped_faces, validity.mirrored_charts,
                   validity.crossings));
+  for (const std::string& note : notes) text += "warning: " + note + "\n";
   return text;
 }
 

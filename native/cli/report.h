@@ -34,7 +34,9 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
 /// A few lines about a run, for people.
 std::string summary(const std::vector<FileReport>& files, const RefineResult& result, const Times& times);
 
-std::string measures_json(const std::string& input, const Measures& measures, const Validity& validity);
-std::string measures_table(const Measures& measures, const Validity& validity);
+/// `notes` say what of the file is not in the atlas.
+std::string measures_json(const std::string& input, const Measures& measures, const Validity& validity,
+                          const std::vector<std::string>& notes);
+std::string measures_table(const Measures& measures, const Validity& validity, const std::vector<std::string>& notes);
 
 }  // namespace atlas_refine::cli

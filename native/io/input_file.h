@@ -14,7 +14,8 @@ class InputError : public std::runtime_error {
   std::filesystem::path path;
 };
 
-/// The file's bytes. `kind` ("an OBJ file") is what messages expect. Throws InputError.
+/// The file's bytes; "-" is the standard input. `kind` ("an OBJ file") is what messages expect. Throws InputError, also for
+/// devices and for pipes that bring more than 1 GiB: they may never end.
 std::string read_text(const std::filesystem::path& path, const char* kind);
 
 /// Text as it may stand in a one-line message: short, printable, in quotes.

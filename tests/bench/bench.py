@@ -4,6 +4,9 @@
 Prints a row for each file and bound as soon as it is known, then summaries; writes bench.json and bench.md. A file that fails is a
 row with the program's own reason. Exit code 0 where every row is ok (or nothing of the asked section went wrong), else 1.
 
+--real: instead every atlas of uv/ as it was found and every mesh of no_uv/ after Blender's Smart UV Project, at 0.80: how each ends;
+exit code 1 where one crashes, hangs or is not valid.
+
 --against COMMIT: that commit is built beside this tree, both programs run one after the other on every file, and what differs is
 the table (against.json, against.md); exit code 1 where a file is no longer valid and at its bound, or has more E_d.
 
@@ -21,13 +24,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import against
+import real
 import studies
 import table
 import trees
 from bad_input import bad_input_lines
 from check_atlas import aspect_of
 from measure_file import Goal, Row, count_triangles, measure_file, outputs_differ
-from meshes import FOLDERS, REQUIRED_FOLDERS, NoMeshesError, folder_meshes, mesh_root, own_meshes
+from meshes import FOLDERS, REAL_FOLDERS, REQUIRED_FOLDERS, NoMeshesError, folder_meshes, mesh_root, own_meshes
 
 ROOT = Path(__file__).resolve().parents[2]
 GOALS = [Goal(0.80), Goal(0.90), Goal(0.80, "square"), Goal(0.85), Goal(0.95)]
@@ -55,7 +59,7 @@ def selected_meshes(arguments):
     if arguments.meshes:
         found = own_meshes(arguments.meshes)
     else:
-        folders = FOLDERS if arguments.study else arguments.folders or FOLDERS
+        folders = FOLDERS if arguments.study else arguments.folders or (REAL_FOLDERS if arguments.real else FOLDERS)
         found = folder_meshes(mesh_root(ROOT.parent / "shared"), folders)
     for folder, paths in found.items():
         kept = [path for path in paths if fnmatch.fnmatch(path.stem, arguments.files)]
@@ -148,6 +152,14 @@ def determinism_at(at, arguments):
     return wrong
 
 
+def run_real(arguments):
+    at = replace((arguments.bounds or GOALS)[0], seams=arguments.seams[0], options=arguments.real_options)
+    file = arguments.out / "real.json"
+    return real.run_real(
+        arguments.build / trees.PROGRAM, each_mesh(arguments), at, arguments.jobs, arguments.cache / "unwrapped", file
+    )
+
+
 def run_bad_input(arguments):
     lines, wrong = bad_input_lines(arguments.build / "atlas-refine")
     print("\n".join(lines))
@@ -162,7 +174,11 @@ def options(text):
 def parsed():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], epilog=__doc__.split("\n\n")[-1])
     parser.add_argument("--meshes", nargs="+", metavar="PATH", help="own OBJ files, or folders that are searched for them")
-    parser.add_argument("--folders", nargs="+", choices=FOLDERS, help="of the test meshes [all]")
+    parser.add_argument("--folders", nargs="+", choices=[*FOLDERS, *REAL_FOLDERS], help="of the test meshes [all]")
+    parser.add_argument("--real", action="store_true", help="instead: real files, whatever they hold, and how each ends")
+    parser.add_argument(
+        "--real-options", type=options, default=("--open-closed",), help="of the program for those [--open-closed]"
+    )
     parser.add_argument("--bounds", nargs="+", type=goal, help="0.8, 0.8:square, 0.8:16:9, ... [what is asked of the folder]")
     parser.add_argument("--seams", nargs="+", choices=["none", "rectangles"], default=["none", "rectangles"])
     parser.add_argument("--files", default="*", help="pattern of file names, without .obj")
@@ -196,6 +212,8 @@ def run_asked(arguments):
     if arguments.determinism:
         return run_determinism(arguments)
     arguments.out.mkdir(parents=True, exist_ok=True)
+    if arguments.real:
+        return run_real(arguments)
     if arguments.study:
         return studies.run_study(arguments.study, arguments, arguments.found.get)
     return (run_against if arguments.against else run_table)(arguments, arguments.out)
@@ -206,7 +224,7 @@ def main():
     try:
         arguments.found = {} if arguments.bad_input else selected_meshes(arguments)
         arguments.build = arguments.build.resolve() if arguments.build else trees.build_own(ROOT)
-        trees.require_built(arguments.build, trees.PROGRAM, trees.HELPER)
+        trees.require_built(arguments.build, trees.PROGRAM, *([] if arguments.real else [trees.HELPER]))
         return 1 if run_asked(arguments) else 0
     except (NoMeshesError, trees.TreeError) as why:
         sys.exit(f"bench: {why}")

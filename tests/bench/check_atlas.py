@@ -25,15 +25,16 @@ from borders import NEAR, Boundary
 from check_cut import divided, joined_anew
 from exact import orientation, polygon_is_simple
 from obj_text import one_after_the_other, read_obj
+from taking_part import taking_part
 from topology import Topology, face_areas
 from triangles import distortion, fan_triangles, least_energy_triangles
 
 
-def check(in_path, out_path, pe_bound=None, aspect=0.0, gap=None, gap_unit="diagonal", gap_box="aspect", cuts=False):
+def check(in_path, out_path, pe_bound=None, aspect=0.0, gap=None, gap_unit="diagonal", gap_box="aspect", cuts=False, charts=None):
     """All findings on one pair of files, or on the files of a collection; `problems` is empty where everything holds.
 
     aspect: width / height of the texture, 0 where it is free. gap: a fraction of the diagonal or of the long side of the smallest
-    box of that aspect, or, with gap_box "charts", of the charts' own box."""
+    box of that aspect, or, with gap_box "charts", of the charts' own box. charts: what the program's report says of each."""
     started = time.monotonic()
     in_paths, out_paths = ([p] if isinstance(p, str | Path) else p for p in (in_path, out_path))
     found = {"file": Path(in_paths[0]).name, "ok": False, "problems": []}
@@ -43,6 +44,7 @@ def check(in_path, out_path, pe_bound=None, aspect=0.0, gap=None, gap_unit="diag
     problems = found["problems"]
     if problems:
         return found
+    before, after, sources = taking_part(before, after, sources, charts, found)
     found["faces"] = after.faces
     if not np.isfinite(after.corner_uv).all():
         problems.append("UVs: not finite")

@@ -157,15 +157,15 @@ def run_limited(command, seconds):
     return process.returncode, message
 
 
-def refine(program, meshes, output, goal, threads=1):
+def refine(program, meshes, output, goal, threads=1, limit_s=PROGRAM_LIMIT_S):
     """Runs the program on one file or on a collection; its report lies beside `output`."""
     meshes = [meshes] if isinstance(meshes, str | Path) else meshes
     report, figures = output.with_suffix(".json"), output.with_suffix(".figures")
     launcher = [sys.executable, "-S", "-E", Path(__file__).with_name("run_measured.py"), figures]
     command = [program, *meshes, "-o", output, *goal.command_line(), "--threads", str(threads), "--report", report]
-    ended = run_limited([*launcher, *command], PROGRAM_LIMIT_S)
+    ended = run_limited([*launcher, *command], limit_s)
     if ended is None:
-        return Run(-1, f"no end after {PROGRAM_LIMIT_S} s")
+        return Run(-1, f"no end after {limit_s} s")
     code, message = ended
     for mesh in meshes:
         message = message.replace(f"{mesh}: ", "")
@@ -221,7 +221,7 @@ def check_report(row, found):
 
 def fill_from_check(row, mesh, output, goal, report):
     aspect = check_atlas.aspect_of(goal.aspect)
-    found = check_atlas.check(mesh, output, goal.bound, aspect, cuts=goal.cuts, **gap_to_check(report))
+    found = check_atlas.check(mesh, output, goal.bound, aspect, cuts=goal.cuts, charts=report["charts"], **gap_to_check(report))
     check_report(row, found)
     problems = [problem for problem in found["problems"] if not problem.startswith("PE:")]
     row.added_seams, row.e_d_checked = found.get("added_seams"), found.get("e_d", math.nan)

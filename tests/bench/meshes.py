@@ -10,6 +10,15 @@ FOLDERS = {
     "atlas-clean": "uv/atlas-clean",
     "atlas-nondisk-charts": "uv/atlas-nondisk-charts",
 }
+# Atlases as they are found, and meshes without UVs.
+REAL_FOLDERS = {
+    name: name
+    for name in (
+        *(f"uv/{kind}" for kind in ("single-disk", "single-disk-lowdist", "atlas-clean", "atlas-nondisk-charts")),
+        *(f"uv/{kind}" for kind in ("atlas-with-defects", "overlapping-tiled", "palette-degenerate-uv")),
+        *(f"no_uv/{kind}" for kind in ("disk-no-uv", "closed-no-uv", "no-uv", "bad-uv")),
+    )
+}
 REQUIRED_FOLDERS = list(FOLDERS)[:3]
 VARIABLE = "ATLAS_REFINE_MESHES"
 HOW = (
@@ -54,4 +63,4 @@ def mesh_root(shared):
 
 
 def folder_meshes(root, folders):
-    return {folder: list((root / FOLDERS[folder]).glob("*.obj")) for folder in folders}
+    return {folder: list((root / (FOLDERS | REAL_FOLDERS)[folder]).glob("*.obj")) for folder in folders}

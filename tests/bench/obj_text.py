@@ -1,5 +1,6 @@
 """OBJ files as the checks need them: arrays for geometry, and the records that must not change."""
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,8 +29,39 @@ class Obj:
         return self.corner_vertex[self.offsets[k] : self.offsets[k + 1]]
 
 
+DATA = (b"v", b"vt", b"vn", b"f", b"l", b"p")
+
+
 def absolute(index, count):
     return index - 1 if index > 0 else count + index
+
+
+def number(text):
+    """Also what C's printf writes for what is no number."""
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+def numbers(tokens):
+    """Up to a comment."""
+    end = next((k for k, token in enumerate(tokens) if token[:1] == b"#"), len(tokens))
+    return [number(token) for token in tokens[1:end]]
+
+
+def logical_lines(text):
+    """Data records that a backslash continues as one line."""
+    joined = b""
+    for line in text.removeprefix(b"\xef\xbb\xbf").splitlines():
+        start = joined or line
+        continued = line.rstrip(b" \t\v\f").endswith(b"\\") and start.split()[:1] in [[keyword] for keyword in DATA]
+        joined += line.rstrip(b" \t\v\f")[:-1] + b" " if continued else line
+        if not continued:
+            yield joined
+            joined = b""
+    if joined:
+        yield joined
 
 
 class Reader:
@@ -42,22 +74,23 @@ class Reader:
         tokens = line.split()
         keyword = tokens[0] if tokens else b""
         if keyword == b"vt":
-            has_v = len(tokens) > 2 and tokens[2][:1] != b"#"
-            self.uvs.append((float(tokens[1]), float(tokens[2]) if has_v else 0.0))
+            self.uvs.append((*numbers(tokens), 0.0)[:2])
         elif keyword in (b"f", b"l"):
-            corners = [t.split(b"/") for t in tokens[1:]]
+            end = next((k for k, token in enumerate(tokens) if token[:1] == b"#"), len(tokens))
+            corners = [token.split(b"/") for token in tokens[1:end]]
             self.kept.append((keyword, [(c[0], *c[2:]) for c in corners]))
-            if keyword == b"f":
-                self.face(corners)
-            else:
-                self.others.append((keyword, [absolute(int(c[0]), len(self.positions)) for c in corners if c[0][:1] != b"#"]))
+            if keyword == b"l" or not self.face(corners):
+                vertices = [absolute(int(c[0]), len(self.positions)) for c in corners]
+                self.others.append((keyword, vertices, [self.uv_index(corner) for corner in corners]))
         else:
             self.kept.append(line)
             self.unindexed(keyword, tokens, line)
 
     def unindexed(self, keyword, tokens, line):
         if keyword == b"v":
-            self.positions.append([float(t) for t in tokens[1:4]])
+            found = numbers(tokens)
+            w = found[3] if len(found) == 4 and found[3] != 0 else 1.0
+            self.positions.append([x / w for x in found[:3]])
             self.vertices.append(line)
         elif keyword == b"vn":
             self.normals.append(line)
@@ -66,33 +99,56 @@ class Reader:
         elif tokens:
             self.others.append(line)
 
+    def uv_index(self, corner):
+        return absolute(int(corner[1]), len(self.uvs)) if len(corner) > 1 and corner[1] else -1
+
+    def is_finite(self, uv):
+        return uv >= len(self.uvs) or all(map(math.isfinite, self.uvs[uv]))
+
     def face(self, corners):
+        """Whether the face is in the atlas: vertices named in a row count once, each comes once, and all corners have finite UVs."""
+        vertices = [absolute(int(corner[0]), len(self.positions)) for corner in corners]
+        own = [k for k, v in enumerate(vertices) if k == 0 or v != vertices[k - 1]]
+        while len(own) > 1 and vertices[own[-1]] == vertices[own[0]]:
+            own.pop()
+        uvs = [self.uv_index(corner) for corner in corners]
+        if len(own) < 3 or len({vertices[k] for k in own}) < len(own) or min(uvs) < 0 or not all(map(self.is_finite, uvs)):
+            return False
         self.others_before.append(len(self.others))
-        for corner in corners:
-            if corner[0][:1] == b"#":
-                break
-            self.corner_vertex.append(absolute(int(corner[0]), len(self.positions)))
-            self.corner_uv.append(absolute(int(corner[1]), len(self.uvs)))
-            self.corner_normal.append(absolute(int(corner[2]), len(self.normals)) if len(corner) > 2 else -1)
+        for k in own:
+            self.corner_vertex.append(vertices[k])
+            self.corner_uv.append(uvs[k])
+            normal = corners[k][2] if len(corners[k]) > 2 else b""
+            self.corner_normal.append(absolute(int(normal), len(self.normals)) if normal else -1)
         self.offsets.append(len(self.corner_vertex))
+        return True
+
+    def elements(self):
+        """Of lines and of faces that are not in the atlas the UVs instead of their numbers, as text: what is no number too."""
+        for record in self.others:
+            if isinstance(record, tuple) and len(record) == 3:
+                keyword, vertices, uvs = record
+                yield keyword, vertices, [repr(self.uvs[uv]) if 0 <= uv < len(self.uvs) else "" for uv in uvs]
+            else:
+                yield record
 
 
 def read_obj(path):
     reader = Reader()
-    joined = Path(path).read_bytes().replace(b"\\\r\n", b" ").replace(b"\\\n", b" ")
-    for line in joined.splitlines():
+    for line in logical_lines(Path(path).read_bytes()):
         reader.read(line)
     uv_table = np.array(reader.uvs, dtype=float).reshape(-1, 2)
+    others = list(reader.elements())
     return Obj(
-        reader.kept,
+        [*reader.kept, *(record for record in others if isinstance(record, tuple))],
         np.array(reader.positions),
-        np.array(reader.corner_vertex),
-        uv_table[np.array(reader.corner_uv)] + 0.0,
-        np.array(reader.corner_normal),
+        np.array(reader.corner_vertex, dtype=int),
+        uv_table[np.array(reader.corner_uv, dtype=int)] + 0.0,
+        np.array(reader.corner_normal, dtype=int),
         np.array(reader.offsets),
         reader.vertices,
         reader.normals,
-        reader.others,
+        others,
         np.array(reader.others_before),
     )
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "atlas_refine/error.h"
@@ -69,6 +70,23 @@ TEST(PlaceCharts, CanBeCancelled) {
   Monitor monitor;
   monitor.cancel();
   EXPECT_THROW(place_charts(several(), {}, monitor), RefineError);
+}
+
+TEST(PlaceCharts, RefusesANeedleByItsFace) {
+  std::vector<Chart> charts = several();
+  Chart& needle = charts[3];
+  needle.uvs[needle.triangles[5][0]].x() += 1e6;
+  Monitor monitor;
+  try {
+    place_charts(charts, {}, monitor);
+    FAIL() << "nothing was refused";
+  } catch (const RefineError& error) {
+    EXPECT_EQ(error.code(), ErrorCode::BadInput);
+    EXPECT_EQ(error.chart(), 3);
+    const Triangle& named = needle.triangles[std::find(needle.triangle_faces.begin(), needle.triangle_faces.end(), error.face()) -
+                                             needle.triangle_faces.begin()];
+    EXPECT_EQ(std::count(named.begin(), named.end(), needle.triangles[5][0]), 1);
+  }
 }
 
 }  // namespace

@@ -20,10 +20,12 @@ struct Place {
 /// Places by edge.
 using Places = std::map<SpaceEdge, std::vector<double>>;
 
-/// Where a point between two vertices of its chart lies in space; nothing for a vertex and for a point inside a triangle.
+/// Where a point between two vertices of its chart lies in space; nothing for a vertex, for a point inside a triangle, and where
+/// both ends of the edge are one point: no other edge is known to be the same as that.
 std::optional<Place> place_of(const std::vector<int>& space_points, const Support& support) {
   if (support.vertices[1] < 0 || support.vertices[2] >= 0) return std::nullopt;
   const int a = space_points[support.vertices[0]], b = space_points[support.vertices[1]];
+  if (a == b) return std::nullopt;
   return Place{{std::min(a, b), std::max(a, b)}, a < b ? support.weights[1] : support.weights[0]};
 }
 
@@ -64,35 +66,38 @@ void collect_places(const SplitMesh& mesh, const std::vector<int>& space_points,
   }
 }
 
-/// Where a side is to be divided, as a fraction of it; nothing where it has no place inside.
-std::optional<double> place_within(const ChartBoundary& boundary, int from, int to, const Places& places) {
+/// Where a side is to be divided, as fractions of its edge in space, in the order of the side.
+std::vector<double> places_within(double start, double end, std::vector<double> known) {
+  std::erase_if(known, [&](double along) {
+    const double t = (along - start) / (end - start);
+    const bool inside = t > kSamePlace && t < 1 - kSamePlace;
+    return !inside || std::abs(along - start) < kSamePlace || std::abs(along - end) < kSamePlace;
+  });
+  std::sort(known.begin(), known.end(), [&](double a, double b) { return start < end ? a < b : a > b; });
+  return known;
+}
+
+void divide_side(SplitMesh& mesh, const std::vector<int>& space_points, int from, int to, const Places& places) {
+  const ChartBoundary boundary{space_points, mesh};
   const SpaceEdge edge = boundary.edge_of(from, to);
   const auto found = places.find(edge);
-  if (found == places.end()) return std::nullopt;
-  const auto start = boundary.along_of(from, edge), end = boundary.along_of(to, edge);
-  if (!start || !end) return std::nullopt;
-  for (const double along : found->second) {
+  if (found == places.end()) return;
+  auto start = boundary.along_of(from, edge);
+  const auto end = boundary.along_of(to, edge);
+  if (!start || !end) return;
+  for (const double along : places_within(*start, *end, found->second)) {
     const double t = (along - *start) / (*end - *start);
-    const bool inside = t > kSamePlace && t < 1 - kSamePlace;
-    if (inside && std::abs(along - *start) >= kSamePlace && std::abs(along - *end) >= kSamePlace) return t;
+    const Vec2 uv = mesh.uvs[from] + t * (mesh.uvs[to] - mesh.uvs[from]);
+    from = mesh.split(mesh.find_side(from, to), t, uv);
+    start = along;
   }
-  return std::nullopt;
 }
 
 void divide_sides(SplitMesh& mesh, const std::vector<int>& space_points, const Places& places) {
-  std::vector<std::pair<int, int>> sides;
   for (const auto& loop : mesh.boundary_loops()) {
+    std::vector<std::pair<int, int>> sides;
     for (const Side& s : loop) sides.emplace_back(mesh.from(s), mesh.to(s));
-  }
-  while (!sides.empty()) {
-    const auto [from, to] = sides.back();
-    sides.pop_back();
-    const auto t = place_within({space_points, mesh}, from, to, places);
-    if (!t) continue;
-    const Vec2 uv = mesh.uvs[from] + *t * (mesh.uvs[to] - mesh.uvs[from]);
-    const int middle = mesh.split(mesh.find_side(from, to), *t, uv);
-    sides.emplace_back(from, middle);
-    sides.emplace_back(middle, to);
+    for (const auto& [from, to] : sides) divide_side(mesh, space_points, from, to, places);
   }
 }
 

@@ -12,6 +12,7 @@ namespace atlas_refine {
 namespace {
 
 constexpr double kCollapsed = 1e-6;
+constexpr double kTile = 1;  // UV units
 constexpr double kOnEachOther = 1e-4;  // of the UV box: how near stacked charts lie
 
 bool has_flag(const Chart& chart, const std::vector<char>& flags) {
@@ -43,7 +44,8 @@ bool is_collapsed(const Chart& chart, double box_side) {
 Participants take_part(const ChartSet& set, const RefineOptions& options, const std::vector<char>& has_uvs) {
   Participants out;
   std::map<int, std::vector<int>> groups;
-  const double side = uv_box(set.charts).size().maxCoeff();
+  // A vertex far outside the tile must not make points of all charts.
+  const double side = std::min(kTile, uv_box(set.charts).size().maxCoeff());
   for (int k = 0; k < static_cast<int>(set.charts.size()); ++k) {
     const Chart& chart = set.charts[k];
     const bool without = !has_uvs.empty() && !has_uvs[chart.triangle_faces.front()];

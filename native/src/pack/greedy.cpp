@@ -38,6 +38,7 @@ GridLayout place_greedily(const std::vector<GridChart>& charts, const GreedyRule
     layout.width = std::max(layout.width, layout.places[chart].x + raster.width);
   }
   layout.height = strip.height();
+  layout.work = strip.work();
   return layout;
 }
 

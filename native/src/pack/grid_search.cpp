@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/box_tree.h"
 #include "pack/compaction.h"
 #include "pack/separation.h"
 #include "support/parallel.h"
@@ -19,6 +20,10 @@ constexpr int kManyCharts = 200;
 /// Beyond this many charts even compaction does.
 constexpr int kTooManyToCompact = 1000;
 constexpr int kFinalists = 4;
+/// Work of all greedy starts in words looked at: four times what atlases of many charts need, a second of tall strips.
+constexpr std::int64_t kGreedyWork = 500'000'000;
+/// Cells are so large that no chart is longer than this many sides of the grid: a needle's length is no measure of the area.
+constexpr double kLongestChart = 16;
 
 double boundary_length(const Outline& outline) {
   double length = 0;
@@ -26,6 +31,14 @@ double boundary_length(const Outline& outline) {
     for (size_t k = 0; k < loop.size(); ++k) length += (loop[k] - loop[(k + 1) % loop.size()]).norm();
   }
   return length;
+}
+
+double length_of(const Outline& outline) {
+  Box box{Vec2::Constant(INFINITY), Vec2::Constant(-INFINITY)};
+  for (const auto& loop : outline.loops) {
+    for (const Vec2& p : loop) box = united(box, {p, p});
+  }
+  return box.diagonal();
 }
 
 /// The charts on a grid whose cell suits their number.
@@ -38,11 +51,14 @@ struct Grid {
 
 Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options, Watch& watch) {
   const int n = static_cast<int>(outlines.size());
-  double dilated_area = area;
-  for (const Outline& outline : outlines) dilated_area += 0.5 * options.gap * boundary_length(outline);
+  double dilated_area = area, longest = 0;
+  for (const Outline& outline : outlines) {
+    dilated_area += 0.5 * options.gap * boundary_length(outline);
+    longest = std::max(longest, length_of(outline) + options.gap);
+  }
   Grid grid;
   grid.cells_per_side = std::clamp(256 * std::sqrt(n / 60.0), 256.0, 1024.0);
-  grid.cell = std::sqrt(dilated_area / 0.8) / grid.cells_per_side;
+  grid.cell = std::max(std::sqrt(dilated_area / 0.8), longest / kLongestChart) / grid.cells_per_side;
   grid.charts.resize(n);
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
@@ -135,13 +151,21 @@ class Search {
     best_ = std::move(placements);
   }
 
+  GridLayout greedy_layout(int start) {
+    return place_greedily(grid_.charts, random_rule(grid_, options_.box_aspect, Rng(options_.seed, 0, start)), watch_);
+  }
+
+  /// The first start tells what the others cost.
   void start_greedily(int starts) {
-    layouts_.resize(starts);
     watch_.begin_part(0.05, 0.3);
-    parallel_ranges(starts, threads_, 1, [&](int begin, int end) {
+    layouts_ = {greedy_layout(0)};
+    const std::int64_t affordable = kGreedyWork / std::max<std::int64_t>(1, layouts_[0].work);
+    starts = static_cast<int>(std::clamp<std::int64_t>(affordable, std::min(kFinalists, starts), starts));
+    layouts_.resize(starts);
+    parallel_ranges(starts - 1, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         watch_.begin_task(k - begin, end - begin);
-        layouts_[k] = place_greedily(grid_.charts, random_rule(grid_, options_.box_aspect, Rng(options_.seed, 0, k)), watch_);
+        layouts_[k + 1] = greedy_layout(k + 1);
       }
     });
     rank();

@@ -1,6 +1,7 @@
 // A layout on the grid: the values that the search for a packing works on.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "measure/distortion.h"
@@ -21,6 +22,7 @@ struct GridLayout {
   std::vector<Cell> places;
   int width = 0;  ///< cells that are used
   int height = 0;
+  std::int64_t work = 0;  ///< words looked at to find it
 };
 
 /// Area of the box that charts of this extent need, of the asked aspect where

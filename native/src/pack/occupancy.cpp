@@ -47,6 +47,7 @@ int Occupancy::longest_free_run(int y) {
 
 void Occupancy::add(const Raster& raster, const Cell& place) {
   grow(place.y + raster.height);
+  work_ += static_cast<std::int64_t>(raster.height) * levels_ * words_;
   height_ = std::max(height_, place.y + raster.height);
   for (const Run& run : raster.runs) {
     std::uint64_t* row = level_row(place.y + run.row, 0);
@@ -71,6 +72,7 @@ std::uint64_t Occupancy::blocked_word(const Raster& raster, const std::vector<in
   std::uint64_t blocked = 0;
   for (const int k : order) {
     const Run& run = raster.runs[k];
+    ++work_;
     if (y + run.row >= height_) continue;
     const int level = std::bit_width(static_cast<unsigned>(run.end - run.begin)) - 1;
     const std::uint64_t* row = level_row(y + run.row, level);

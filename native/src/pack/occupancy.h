@@ -17,6 +17,7 @@ class Occupancy {
   explicit Occupancy(int width);
 
   int height() const { return height_; }  ///< rows up to the topmost taken cell
+  std::int64_t work() const { return work_; }  ///< words looked at so far
 
   /// Lowest, then leftmost place of the raster with y <= highest; false where
   /// there is none.
@@ -35,6 +36,7 @@ class Occupancy {
   int height_ = 0;
   int words_;
   int levels_;
+  std::int64_t work_ = 0;
   std::vector<std::uint64_t> taken_;  ///< [row][level]: bit x set where some
                                       ///< cell of [x, x + 2^level) is taken
   std::vector<int> longest_free_;     ///< of each row, in cells

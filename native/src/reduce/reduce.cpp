@@ -15,7 +15,9 @@ namespace {
 constexpr double kNegligible = 1e-8;  // a change of E_d that nobody can measure
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kStallIterations = 12;
-constexpr double kTelling = 1;  // damping up to which a rise of the objective is the price of PE
+constexpr double kFarBelow = 3;       // log PE below the target where charts that climb too slowly are given up,
+constexpr int kTrialIterations = 60;  // after so many iterations
+constexpr double kTelling = 1;        // damping up to which a rise of the objective is the price of PE
 
 /// Where the iteration is.
 struct Iterate {
@@ -160,6 +162,13 @@ bool hopeless(const Task& task, const Iterate& at, const Change& change) {
   return at.fraction > 0.5 && -change.distortion < kSlow * (at.distortion - task.problem.max_distortion);
 }
 
+/// So far below the bound that at the pace so far no iteration that is left reaches it.
+bool too_far(const Task& task, const Iterate& at, const Schedule& schedule, double first_pe, int iteration) {
+  const double deficit = task.deficit(at, schedule.margin);
+  if (iteration < kTrialIterations || deficit < kFarBelow) return false;
+  return std::log(at.pe / first_pe) / iteration * (task.problem.max_iterations - iteration) < deficit;
+}
+
 Counters counted(const Task& task, const Change& change, const Iterate& at, const Schedule& schedule, Counters counters) {
   const ReduceProblem& problem = task.problem;
   const double deficit = task.deficit(at, schedule.margin);
@@ -229,7 +238,7 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
   const Task task{problem, model};
   Iterate at = first_iterate(task);
   Iterate best = at;
-  const double first_energy = at.energy;
+  const double first_energy = at.energy, first_pe = at.pe;
   const bool relaxing = task.bounded() && at.pe > problem.pe_target;
   Schedule schedule =
       first_schedule(relaxing, task.view(at, relaxing ? kMostMargin : 0), relaxing ? least_slack(model, at.state) : 1);
@@ -246,6 +255,7 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
       status = *end;
       break;
     }
+    if (too_far(task, at, schedule, first_pe, iteration)) break;
     const auto step = compute_step(task, at, schedule, slots, system);
     if (!step) {
       status = ReduceStatus::Stalled;

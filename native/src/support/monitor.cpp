@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <system_error>
 #include <thread>
 
 #include "atlas_refine/error.h"
@@ -46,42 +47,59 @@ void Monitor::throw_if_cancelled() const {
   if (cancelled_) throw RefineError(ErrorCode::Cancelled, present_.stage, "cancelled");
 }
 
-void run_monitored(const ProgressFn& progress, const std::function<void(Monitor&)>& work) {
-  Monitor monitor;
-  if (!progress) {
-    work(monitor);
-    return;
-  }
+namespace {
+
+/// The work on a thread of its own, and how it ended.
+struct Worker {
   std::mutex mutex;
   std::condition_variable ended;
   bool done = false;
-  std::exception_ptr work_error, callback_error;
-  {
-    const std::jthread worker([&] {
+  std::exception_ptr error;
+  std::jthread thread;
+
+  void start(const std::function<void(Monitor&)>& work, Monitor& monitor) {
+    thread = std::jthread([&] {
       try {
         work(monitor);
       } catch (...) {
-        work_error = std::current_exception();
+        error = std::current_exception();
       }
       const std::lock_guard lock(mutex);
       done = true;
       ended.notify_one();
     });
+  }
+  bool wait(std::chrono::milliseconds most) {
     std::unique_lock lock(mutex);
-    while (!ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return done; })) {
-      if (callback_error) continue;
-      lock.unlock();
-      try {
-        if (!progress(monitor.snapshot())) monitor.cancel();
-      } catch (...) {
-        callback_error = std::current_exception();
-        monitor.cancel();
-      }
-      lock.lock();
+    return ended.wait_for(lock, most, [&] { return done; });
+  }
+};
+
+}  // namespace
+
+void run_monitored(const ProgressFn& progress, const std::function<void(Monitor&)>& work) {
+  Monitor monitor;
+  if (!progress) return work(monitor);
+  Worker worker;
+  try {
+    worker.start(work, monitor);
+  } catch (const std::system_error&) {
+    // The system gives no thread: better without progress than not at all.
+    return work(monitor);
+  }
+  std::exception_ptr callback_error;
+  while (!worker.wait(std::chrono::milliseconds(50))) {
+    if (callback_error) continue;
+    try {
+      if (!progress(monitor.snapshot())) monitor.cancel();
+    } catch (...) {
+      callback_error = std::current_exception();
+      monitor.cancel();
     }
   }
+  worker.thread.join();
   if (callback_error) std::rethrow_exception(callback_error);
-  if (work_error) std::rethrow_exception(work_error);
+  if (worker.error) std::rethrow_exception(worker.error);
 }
 
 }  // namespace atlas_refine

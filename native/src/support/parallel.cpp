@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -28,10 +29,17 @@ void parallel_ranges(int count, int threads, int grain, const std::function<void
       errors[part] = std::current_exception();
     }
   };
+  int started = 1;
   {
     std::vector<std::jthread> workers;
-    for (int part = 1; part < parts; ++part) workers.emplace_back(run, part);
+    workers.reserve(parts - 1);
+    try {
+      for (; started < parts; ++started) workers.emplace_back(run, started);
+    } catch (const std::system_error&) {
+      // The system gives no more threads: the rest is for this one.
+    }
     run(0);
+    for (int part = started; part < parts; ++part) run(part);
   }
   for (const auto& error : errors) {
     if (error) std::rethrow_exception(error);

@@ -1,0 +1,112 @@
+// The library on small damaged meshes: a certified result, or a refusal in words.
+//
+// With ATLAS_REFINE_FUZZ_OBJ=FILE in the environment the input is written there as an OBJ file, its options in the first line.
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <optional>
+
+#include "atlas_refine/refine.h"
+#include "fuzzed_mesh.h"
+#include "fuzzed_options.h"
+#include "input/split_charts.h"
+#include "output_atlas.h"
+
+namespace atlas_refine::fuzz {
+
+namespace {
+
+void write_obj(const char* path, const Atlas& atlas, const RefineOptions& options) {
+  std::ofstream out(path);
+  out.precision(17);
+  out << "# " << words(options) << '\n';
+  for (const Vec3& p : atlas.positions) out << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+  for (const Vec2& uv : atlas.corner_uvs) out << "vt " << uv.x() << ' ' << uv.y() << '\n';
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    out << 'f';
+    for (int c = atlas.face_offsets[f]; c < atlas.face_offsets[f + 1]; ++c)
+      out << ' ' << atlas.corner_vertices[c] + 1 << '/' << c + 1;
+    out << '\n';
+  }
+}
+
+void require(bool holds, const std::string& what) {
+  if (holds) return;
+  std::cerr << "fuzz_refine: " << what << '\n';
+  std::abort();
+}
+
+/// Of each input face the group of the atlas that it is in, -1 where its chart was left or lies on another one. Nothing where the
+/// program joins faces otherwise than split_charts() does.
+std::optional<std::vector<int>> atlas_of_faces(const Atlas& atlas, const RefineOptions& options, const RefineResult& result) {
+  const std::vector<Chart> charts = split_charts(atlas).charts;
+  std::vector<int> groups = options.groups;
+  groups.resize(atlas.face_count(), 0);
+  const auto all_in = [](const ChartReport& chart) { return chart.fate != Fate::Left && chart.fate != Fate::Stacked; };
+  if (std::all_of(result.charts.begin(), result.charts.end(), all_in)) return groups;
+  if (charts.size() != result.charts.size()) return std::nullopt;
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    if (all_in(result.charts[c])) continue;
+    for (const int face : charts[c].triangle_faces) groups[face] = -1;
+  }
+  return groups;
+}
+
+/// The faces of one atlas of the output; its other vertices stay, unused.
+Atlas one_of(const Atlas& output, const std::vector<int>& group_of_face, int group) {
+  Atlas out{.positions = output.positions, .face_offsets = {0}};
+  for (int f = 0; f < output.face_count(); ++f) {
+    if (group_of_face[f] != group) continue;
+    for (int c = output.face_offsets[f]; c < output.face_offsets[f + 1]; ++c) {
+      out.corner_vertices.push_back(output.corner_vertices[c]);
+      out.corner_uvs.push_back(output.corner_uvs[c]);
+    }
+    out.face_offsets.push_back(out.corner_count());
+  }
+  return out;
+}
+
+void check_validity(const Atlas& atlas, const RefineOptions& options, const RefineResult& result) {
+  const auto input_groups = atlas_of_faces(atlas, options, result);
+  if (!input_groups) return;
+  std::vector<int> groups = *input_groups;
+  if (result.cut) {
+    groups.clear();
+    for (const int source : result.cut->face_sources) groups.push_back((*input_groups)[source]);
+  }
+  const Atlas output = testing::output(atlas, result);
+  for (int group = 0; group <= *std::max_element(groups.begin(), groups.end()); ++group) {
+    const Atlas one = one_of(output, groups, group);
+    if (one.face_count() == 0) continue;
+    const Validity validity = validate(one);
+    require(validity.valid(), "the result is not valid: " + validity.problem);
+  }
+}
+
+void check(const Atlas& atlas, const RefineOptions& options, const RefineResult& result) {
+  check_validity(atlas, options, result);
+  require(result.bound_met || options.best_effort, "the bound was missed without a word");
+  require(!result.bound_met || result.after.pe_fixed_aspect >= options.pe_bound, "the bound does not hold");
+}
+
+void refine_input(FuzzedDataProvider& data) {
+  const Atlas atlas = fuzzed_mesh(data);
+  const RefineOptions options = fuzzed_options(data, atlas);
+  if (const char* path = std::getenv("ATLAS_REFINE_FUZZ_OBJ")) write_obj(path, atlas, options);
+  try {
+    check(atlas, options, refine(atlas, options));
+  } catch (const RefineError& error) {
+    require(error.code() != ErrorCode::Cancelled && *error.what() != '\0', "a refusal without words");
+  }
+}
+
+}  // namespace
+
+}  // namespace atlas_refine::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  FuzzedDataProvider data(bytes, size);
+  atlas_refine::fuzz::refine_input(data);
+  return 0;
+}

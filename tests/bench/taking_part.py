@@ -1,0 +1,51 @@
+"""The faces that take part in an atlas: the program says of each chart what became of it, and some stay as they are."""
+
+from dataclasses import replace
+
+import numpy as np
+from topology import Topology, face_areas
+
+ASIDE = ("left", "stacked")  # fates of charts that are no part of the atlas: as they were, or on top of another one
+
+
+def of_faces(obj, chosen):
+    """The geometry of some of the faces, as a mask."""
+    sides = np.diff(obj.offsets)
+    corners = np.repeat(chosen, sides)
+    return replace(
+        obj,
+        corner_vertex=obj.corner_vertex[corners],
+        corner_uv=obj.corner_uv[corners],
+        corner_normal=obj.corner_normal[corners],
+        offsets=np.concatenate([[0], np.cumsum(sides[chosen])]),
+    )
+
+
+def aside(before, charts):
+    """Masks of the faces of charts that were left and that lie on others. `charts` are the report's, None where there is none.
+
+    Without a report that has these charts, those without UV area are taken for left."""
+    topology = Topology(before)
+    sizes = np.bincount(topology.chart)
+    if charts is not None and [chart["faces"] for chart in charts] == sizes.tolist():
+        fates = np.array([chart.get("fate", "refined") for chart in charts])
+        return fates[topology.chart] == "left", fates[topology.chart] == "stacked"
+    area = np.bincount(topology.chart, np.abs(face_areas(before, topology.next)))
+    return (area == 0)[topology.chart], np.zeros(before.faces, dtype=bool)
+
+
+def taking_part(before, after, sources, charts, found):
+    """(before, after, sources) of the faces in the atlas; what was left must have its UVs still."""
+    finite = np.logical_and.reduceat(np.isfinite(before.corner_uv).all(axis=1), before.offsets[:-1])
+    left, stacked = aside(before, charts)
+    left |= ~finite
+    if not (left | stacked).any():
+        return before, after, sources
+    of_left = left[sources]
+    same = np.array_equal(of_faces(before, left).corner_uv, of_faces(after, of_left).corner_uv, equal_nan=True)
+    if not same:
+        found["problems"].append("UVs: of charts that were left they differ")
+    found.update(left=int(left.sum()), stacked=int(stacked.sum()))
+    part = ~(left | stacked)
+    number = np.cumsum(part) - 1
+    return of_faces(before, part), of_faces(after, part[sources]), number[sources[part[sources]]]

@@ -1,0 +1,109 @@
+// Atlases that once took all memory or never ended: needles, places that are one point in space, gaps that leave no room.
+#include <cmath>
+
+#include "output_atlas.h"
+#include "refine_checks.h"
+#include "shapes.h"
+#include "small_atlases.h"
+
+namespace atlas_refine {
+namespace {
+
+constexpr double kPi = 3.14159265358979;
+
+/// A cone, rolled out in the UVs to half a square; its tip is a whole column of vertices, each one at the same place.
+Atlas cone(int count) {
+  std::vector<Vec3> positions;
+  std::vector<std::vector<int>> faces;
+  for (int j = 0; j <= count; ++j) {
+    for (int i = 0; i <= count; ++i) positions.push_back(Vec3(i, j, 0) / count);
+  }
+  for (int j = 0; j < count; ++j) {
+    for (int i = 0; i + j < count; ++i) {
+      const int v = j * (count + 1) + i;
+      faces.push_back({v, v + 1, v + count + 2, v + count + 1});
+    }
+  }
+  Atlas atlas = flat_atlas(positions, faces);
+  for (Vec3& p : atlas.positions) {
+    const double x = p.x(), turn = 1.5 * kPi * p.y();
+    p = Vec3(x * std::cos(turn), x * std::sin(turn), x);
+  }
+  return atlas;
+}
+
+/// A polygon of many corners that is a single point in space.
+Atlas polygon_without_size(int corners) {
+  std::vector<Vec3> positions;
+  std::vector<int> face;
+  for (int k = 0; k < corners; ++k) {
+    const double turn = 2 * kPi * k / corners, radius = 1 + 0.4 * std::sin(5 * turn);
+    positions.push_back(Vec3(radius * std::cos(turn), radius * std::sin(turn), 0));
+    face.push_back(k);
+  }
+  Atlas atlas = flat_atlas(positions, {face});
+  for (Vec3& p : atlas.positions) p.setZero();
+  return atlas;
+}
+
+/// Squares, and one triangle with a corner `reach` away.
+Atlas squares_and_needle(double reach) {
+  const Atlas needle = flat_atlas({{-3, 0, 0}, {-2, 0, 0}, {-2, 1, 0}}, {{0, 1, 2}});
+  Atlas atlas = shapes::combine({shapes::two_squares(0.1), needle});
+  atlas.corner_uvs[atlas.corner_count() - 3].x() = -reach;
+  return atlas;
+}
+
+RefineOptions cut_options(int candidates) {
+  RefineOptions options{.pe_bound = 0.7, .seams = Seams::Rectangles};
+  options.rectangles.candidates = candidates;
+  return options;
+}
+
+/// A valid atlas at the bound, cut or not.
+void refine_validly(const Atlas& atlas, const RefineOptions& options) {
+  const RefineResult result = refine(atlas, options);
+  const Validity validity = validate(testing::output(atlas, result));
+  EXPECT_TRUE(validity.valid()) << validity.problem;
+  EXPECT_GE(result.after.pe, options.pe_bound);
+}
+
+TEST(Hangs, AConeWhoseTipIsManyVerticesAtOnePlaceIsCutOrSqueezed) {
+  for (const int candidates : {1, 20}) refine_validly(cone(8), cut_options(candidates));
+}
+
+TEST(Hangs, APolygonThatIsOnePointInSpaceIsCutOrSqueezed) {
+  const Atlas one = polygon_without_size(30);
+  Atlas other = one;
+  for (Vec2& uv : other.corner_uvs) uv.x() += 4;
+  refine_validly(shapes::combine({one, other}), cut_options(20));
+}
+
+TEST(Hangs, ANeedleIsLeftAndTheOthersAreNot) {
+  for (const double reach : {1e7, 1e9}) {
+    for (const Seams seams : {Seams::None, Seams::Rectangles}) {
+      const RefineResult result = refine(squares_and_needle(reach), {.pe_bound = 0.5, .seams = seams, .best_effort = true});
+      ASSERT_EQ(result.charts.size(), 3U);
+      EXPECT_EQ(result.charts[0].fate, Fate::Refined);
+      EXPECT_EQ(result.charts[1].fate, Fate::Refined);
+      EXPECT_EQ(result.charts[2].fate, Fate::Left);
+    }
+  }
+}
+
+TEST(Hangs, ALongTriangleIsPackedWithTheOthers) {
+  for (const double reach : {10.0, 1e3, 1e5}) {
+    const Atlas atlas = squares_and_needle(reach);
+    RefineOptions options{.pe_bound = 0.5, .best_effort = true};
+    EXPECT_TRUE(validate(testing::with_corner_uvs(atlas, refine(atlas, options).corner_uvs)).valid());
+  }
+}
+
+TEST(Hangs, AGapThatLeavesNoRoomIsRefused) {
+  const RefineError error = testing::refusal(shapes::squares(150), {.pe_bound = 0.5, .gap = Gap{.value = 0.1}});
+  EXPECT_EQ(error.code(), ErrorCode::BoundNotReached);
+  EXPECT_NE(std::string(error.what()).find("leaves no room for 150 charts"), std::string::npos) << error.what();
+}
+
+}  // namespace
+}  // namespace atlas_refine
