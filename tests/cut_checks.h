@@ -155,7 +155,7 @@ inline Laid laid(const Atlas& atlas, double pe_bound = 0.8, double sigma = 0.01)
   out.aligned = aligned(out.set.charts, sigma);
   out.layout = search_layout(out.aligned, out.set.charts, layout_options(pe_bound), monitor);
   TracedTrails traced = trace_trails(out.aligned, out.layout.trails);
-  const auto points = space_points(atlas, out.set);
+  const auto& points = out.set.points;
   match_boundaries(traced.meshes, points);
   out.cut = cut_along(divided_atlas(traced.meshes, out.set.charts, points), out.set.charts, traced.paths);
   return out;

@@ -206,7 +206,7 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
                {"bound_met", result.bound_met},
                {"before", to_json(result.before)},
                {"after", to_json(result.after)},
-               {"added_seam_edges", result.after.seam_edges - result.before.seam_edges},
+               {"added_seam_edges", result.added_seams},
                {"added_seam_length", number(seam_growth(result))},
                {"gap", to_json(result.gap)},
                {"price", number(result.price)},
@@ -235,7 +235,7 @@ std::string summary(const std::vector<FileReport>& files, const RefineResult& re
   text += print("  E_d          %.4f -> %.4f\n", before.distortion, after.distortion);
   text += print("  stretch 99%%  %.3f -> %.3f, largest %.3f -> %.3f\n", before.stretch_99, after.stretch_99, before.stretch_max,
                 after.stretch_max);
-  text += print("  added seams  %d\n", after.seam_edges - before.seam_edges);
+  text += print("  added seams  %d\n", result.added_seams);
   text += cut_lines(files, result);
   text += "  gap          " + gap_text(after.gap_between) + "\n";
   for (const GroupReport& group : result.groups)

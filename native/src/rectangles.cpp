@@ -119,7 +119,7 @@ void tell(const Refinement& run, const AlignedCharts& aligned, const Layout& lay
 CutAtlas cut_along_trails(const Refinement& run, const AlignedCharts& aligned, const std::vector<Chart>& charts,
                           const Layout& layout) {
   TracedTrails traced = trace_trails(aligned, layout.trails);
-  const auto points = space_points(run.input.atlas, run.input.set);
+  const auto& points = run.input.set.points;
   match_boundaries(traced.meshes, points);
   return cut_along(divided_atlas(traced.meshes, charts, points), charts, traced.paths);
 }
@@ -167,7 +167,8 @@ ReduceResult reduce(const Refinement& run, const Gap& gap, double least_change, 
 /// Takes out the vertices that only served the deformation.
 void restore(const std::vector<Chart>& charts, CutAtlas& cut) {
   const double scale = dirichlet_sums(meshes_of(cut)).best_scale();
-  for (Piece& piece : cut.pieces) restore_faces(piece, charts[piece.chart], scale);
+  const std::vector<bool> border_points = points_on_borders(cut);
+  for (Piece& piece : cut.pieces) restore_faces(piece, charts[piece.chart], scale, border_points);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // The whole method, top to bottom: charts, who takes part, each atlas by itself, all put together again.
 #include "atlas_refine/refine.h"
 
+#include <algorithm>
+
 #include "input/check_atlas.h"
 #include "input/join_edges.h"
 #include "input/take_part.h"
@@ -48,6 +50,12 @@ std::vector<RefinedPart> refined_parts(std::vector<Done>& done) {
   return out;
 }
 
+/// What was written is tested as it stands; charts that keep their UVs may keep their noise.
+Joining joining_after(const Participants& participants, const std::vector<Done>& done) {
+  const auto changed = [](const Done& part) { return part.outcome.intervention != Intervention::Unchanged; };
+  return participants.left.empty() && std::all_of(done.begin(), done.end(), changed) ? Joining::Exact : Joining::AsMeant;
+}
+
 RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, const RefineOptions& options, Monitor& monitor,
                           Journal& journal) {
   journal.begin_stage("input", kInput);
@@ -58,9 +66,11 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   RefineResult result;
   summarise(whole, participants, options, done, result);
   tell_of(participants, done, journal);
+  const int parted = tell_of_folds(whole.set, participants, done, journal);
   AssembledAtlas assembled = assemble(whole, participants, refined_parts(done), options.stored);
-  measure_seams(atlas, join_edges(atlas), result.before);
-  measure_seams(assembled.mesh, join_edges(assembled.mesh), result.after);
+  measure_seams(atlas, join_edges(atlas, Joining::AsMeant), result.before);
+  measure_seams(assembled.mesh, join_edges(assembled.mesh, joining_after(participants, done)), result.after);
+  result.added_seams = assembled.cut_edges + parted;
   result.corner_uvs = std::move(assembled.mesh.corner_uvs);
   result.cut = std::move(assembled.cut);
   return result;

@@ -28,12 +28,25 @@ std::vector<int> embed_where_needed(const Refinement& run, std::vector<Chart>& c
   std::vector<int> embedded;
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
     run.monitor.report(static_cast<double>(c) / static_cast<double>(charts.size()));
-    if (certify_charts({charts[c]}).valid()) continue;
+    if (certify_charts({charts[c]}, {run.input.set.points[c]}).valid()) continue;
     charts[c] = re_embed(charts[c], charts[c].number, run.threads, run.monitor);
     run.journal.repairs.push_back({.what = "overlapped or touched itself, embedded anew", .charts = {charts[c].number}});
     embedded.push_back(c);
   }
   return embedded;
+}
+
+/// Borders that touch at a vertex (a pinch) may stay so where charts are but moved; no barrier can start from contact.
+bool part_pinches(const Refinement& run, std::vector<Chart>& charts) {
+  std::vector<int> parted;
+  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+    if (certify_charts({charts[c]}).valid()) continue;
+    charts[c] = re_embed(charts[c], charts[c].number, run.threads, run.monitor);
+    parted.push_back(charts[c].number);
+  }
+  if (parted.empty()) return false;
+  run.journal.repairs.push_back({.what = "touched itself at a vertex, parted there", .charts = parted});
+  return true;
 }
 
 bool holds(const Refinement& run, const std::vector<Chart>& placed) {
@@ -103,13 +116,14 @@ Solution refine_whole(const Refinement& run, const ProgressRange& range) {
   std::vector<Chart> charts = run.input.set.charts;
   run.journal.begin_stage("embed", range.part(0, 0.2));
   Solution out{.re_embedded = embed_where_needed(run, charts)};
-  const bool own_is_valid = out.re_embedded.empty() && certify_charts(charts).valid();
+  const auto& points = run.input.set.points;
+  bool own_is_valid = out.re_embedded.empty() && certify_charts(charts, points).valid();
 
   run.journal.begin_stage("pack", range.part(0.2, 0.4));
   const bool scaled = set_density(charts, wanted_density(run.input.set.charts, options.density), options.density);
   const std::vector<Gap> gaps = gaps_of(run, charts);
-  const std::vector<Chart> placed = place(run, charts, gaps.front(), options.pe_bound);
-  if (const Validity valid = certify_charts(placed); !valid.valid())
+  std::vector<Chart> placed = place(run, charts, gaps.front(), options.pe_bound);
+  if (const Validity valid = certify_charts(placed, points); !valid.valid())
     throw RefineError(ErrorCode::BadInput, "pack", "charts could not be placed apart: " + valid.problem, valid.chart, valid.face);
   run.journal.show("placed", placed);
   out.atlas = with_uvs(whole_atlas(charts), uvs_of(placed));
@@ -119,6 +133,10 @@ Solution refine_whole(const Refinement& run, const ProgressRange& range) {
     return out;
   }
 
+  if (part_pinches(run, charts)) {
+    placed = place(run, charts, gaps.front(), options.pe_bound);
+    own_is_valid = own_is_valid && certify_charts(charts).valid();
+  }
   run.journal.begin_stage("squeeze", range.part(0.4, 1));
   squeeze_into(run, starts_of(run, charts, own_is_valid && !scaled, placed, gaps.front()), gaps, out);
   return out;

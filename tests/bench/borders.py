@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from exact import exactly_touch, folds_back, orientation
+from exact import exact_orientation, exactly_touch, folds_back, orientation
 from topology import components
 
 NEAR = 1e-9  # of the coordinates' size: closer than this only rational arithmetic decides
@@ -67,6 +67,7 @@ class Boundary:
         first = np.where(with_sense, edges, topology.next[edges])
         last = np.where(with_sense, topology.next[edges], edges)
         self.start, self.end = topology.node[first], topology.node[last]
+        self.start_point, self.end_point = self._points(obj, topology, first, last)
         self.a, self.b = obj.corner_uv[first], obj.corner_uv[last]
         stretched = obj.corner_uv * (width, 1)
         self.measured_a, self.measured_b = stretched[first], stretched[last]
@@ -76,6 +77,13 @@ class Boundary:
         leaving[self.start] = np.arange(len(edges))
         self.following = leaving[self.end]
         self.loop = components(len(edges), np.arange(len(edges)), self.following)
+
+    @staticmethod
+    def _points(obj, topology, first, last):
+        """A number for the start and the end of each border edge: one for all vertices of a chart at one point in space and UVs."""
+        at = np.r_[first, last]
+        keys = np.column_stack([topology.chart[topology.face[at]], topology.place[at], obj.corner_uv[at]])
+        return np.split(np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1), 2)
 
     def pairs(self, i, j):
         return self.a[i], self.b[i], self.a[j], self.b[j]
@@ -91,13 +99,13 @@ class Boundary:
 
     def contacts_and_gap(self, least_reach):
         """Pairs of edges that cross or touch, and the smallest distance between two charts (inf with one)."""
-        contacts, gap = set(self._folds()), math.inf
+        contacts, gap = set(self._folds()) | set(self._crossing_fans()), math.inf
         reach = max(least_reach, float(np.mean(np.linalg.norm(self.measured_b - self.measured_a, axis=1))) / 2)
         for i, j, distance in self.near(reach):
             linked = (self.end[i] == self.start[j]) | (self.end[j] == self.start[i])
             for k in np.flatnonzero((distance <= NEAR * self.size) & ~linked):
                 one, two = sorted((int(i[k]), int(j[k])))
-                if (one, two) not in contacts and exactly_touch(*self.pairs(one, two)):
+                if (one, two) not in contacts and self._in_contact(one, two):
                     contacts.add((one, two))
             gap = min(gap, self._between(i, j, distance))
         while gap > reach and reach < 4 * self.size and self.chart.max() > 0:
@@ -105,6 +113,37 @@ class Boundary:
             for i, j, distance in self.near(reach, of_two_charts=True):
                 gap = min(gap, self._between(i, j, distance))
         return contacts, gap
+
+    def _in_contact(self, i, j):
+        """Edges that touch, but for those with one end at a point where their chart is pinched: they must not lie on each other."""
+        ends = [(self.start_point[i], self.a[i], self.b[i]), (self.end_point[i], self.b[i], self.a[i])]
+        others = [(self.start_point[j], self.b[j]), (self.end_point[j], self.a[j])]
+        shared = [(at, far, other) for point, at, far in ends for point_of_other, other in others if point == point_of_other]
+        if len(shared) != 1:
+            return exactly_touch(*self.pairs(i, j))
+        at, far, other = shared[0]
+        return folds_back(far, at, other)
+
+    def _crossing_fans(self):
+        """Edges into vertices at one point (a pinch) whose faces there reach into each other."""
+        order = np.argsort(self.end_point, kind="stable")
+        first = np.flatnonzero(np.r_[True, np.diff(self.end_point[order]) > 0])
+        for into in np.split(order, first[1:]):
+            for k, i in enumerate(into.tolist()):
+                for j in into[k + 1 :].tolist():
+                    if not self._in_turn(i, j):
+                        yield min(i, j), max(i, j)
+
+    def _in_turn(self, i, j):
+        """Whether out of i, into i, out of j, into j come in this order around the point that both run into."""
+        at = self.b[i]
+        out_of_i, into_i, out_of_j, into_j = self.b[self.following[i]], self.a[i], self.b[self.following[j]], self.a[j]
+
+        def turns(p, q, r):
+            """p, q, r come counter-clockwise around `at`, all different directions."""
+            return sum(exact_orientation(at, *pair) > 0 for pair in ((p, q), (q, r), (r, p))) >= 2
+
+        return turns(out_of_i, into_i, out_of_j) and turns(out_of_i, out_of_j, into_j) and turns(into_i, out_of_j, into_j)
 
     def _between(self, i, j, distance):
         other = self.chart[i] != self.chart[j]
@@ -122,14 +161,19 @@ class Boundary:
     def overlapping_loops(self):
         """Loops on whose inner side the atlas does not lie exactly once; borders must not touch each other.
 
-        The other loops wind 0 times around a point of an outer loop and once around a point of a hole."""
+        The other loops wind 0 times around a point of an outer loop and once around a point of a hole: its first vertex that is
+        alone at its point, else the middle of its longest edge."""
         count = int(self.loop.max()) + 1
         area2 = np.bincount(self.loop, self.a[:, 0] * self.b[:, 1] - self.a[:, 1] * self.b[:, 0], count)
-        first = np.unique(self.loop, return_index=True)[1]
+        length = np.linalg.norm(self.b - self.a, axis=1)
+        pinched = np.bincount(self.start_point)[self.start_point] > 1
         low, high = np.minimum(self.a[:, 1], self.b[:, 1]), np.maximum(self.a[:, 1], self.b[:, 1])
         wrong = []
         for loop in range(count):
-            p = self.a[first[loop]]
+            own = np.flatnonzero(self.loop == loop)
+            alone = own[~pinched[own]]
+            longest = own[np.argmax(length[own])]
+            p = self.a[alone[0]] if len(alone) else (self.a[longest] + self.b[longest]) / 2
             hit = np.flatnonzero((low <= p[1]) & (high > p[1]) & (self.loop != loop))
             a, b = self.a[hit], self.b[hit]
             up = np.where(b[:, 1] > a[:, 1], 1, -1)

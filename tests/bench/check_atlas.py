@@ -22,7 +22,7 @@ from pathlib import Path
 
 import numpy as np
 from borders import NEAR, Boundary
-from check_cut import divided, joined_anew
+from check_cut import divided, joined_anew, torn_anew
 from exact import orientation, polygon_is_simple
 from obj_text import one_after_the_other, read_obj
 from taking_part import taking_part
@@ -49,9 +49,16 @@ def check(in_path, out_path, pe_bound=None, aspect=0.0, gap=None, gap_unit="diag
     if not np.isfinite(after.corner_uv).all():
         problems.append("UVs: not finite")
         return found
-    topology = Topology(after)
-    (_check_cut_seams if cuts else _check_seams)(Topology(before), topology, sources, found)
+    meant = Topology(before, as_meant=True)
+    kept = np.array_equal(before.corner_uv, after.corner_uv)
+    topology = meant if kept else Topology(after)
+    if not kept:
+        (_check_cut_seams if cuts else _check_seams)(before, meant, after, topology, sources, found)
+    else:
+        found.update(seams_in=meant.seams, seams=meant.seams, added_seams=0)
     _check_faces(after, topology, found)
+    if kept:
+        after = replace(after, corner_uv=meant.settled(after))
     _check_texture(after, topology, found, pe_bound=pe_bound, aspect=aspect, gap=gap, gap_unit=gap_unit, gap_box=gap_box)
     _measure_distortion(before, after, aspect or 1, found)
     found["ok"] = not problems
@@ -77,18 +84,22 @@ def _check_files(pairs, cuts, found):
     return np.concatenate(sources) if sources else None
 
 
-def _check_seams(before, after, _, found):
-    split = np.flatnonzero((before.partner >= 0) & (after.partner != before.partner))
-    welded = np.flatnonzero((after.partner >= 0) & (after.partner != before.partner))
-    found.update(seams_in=before.seams, seams=after.seams, added_seams=len(split) // 2, removed_seams=len(welded) // 2)
+def _check_seams(source, before, result, after, _, found):
+    """Edges that were whole and are torn, and the other way round. Folded edges and those of one-sided charts have to be torn."""
+    torn = before.apart(result)
+    split = np.flatnonzero(torn & ~before.fold & ~before.one_sided)
+    welded = np.flatnonzero((after.partner >= 0) & (after.partner != before.partner) & after.noticeably_apart(source))
+    found.update(seams_in=before.seams, seams=after.seams, added_seams=int((torn & ~before.one_sided).sum()) // 2)
+    found.update(parted_folds=int((torn & before.fold).sum()) // 2, removed_seams=len(welded) // 2)
     if len(split):
         found["problems"].append(f"seams: {len(split) // 2} added, first at face {int(after.face[split[0]])}")
     if len(welded):
         found["problems"].append(f"seams: {len(welded) // 2} removed, first at face {int(after.face[welded[0]])}")
 
 
-def _check_cut_seams(before, after, sources, found):
-    found.update(seams_in=before.seams, seams=after.seams, bl_in=before.seam_length, bl=after.seam_length)
+def _check_cut_seams(source, before, result, after, sources, found):
+    added = torn_anew(source, before, result, after, sources)
+    found.update(seams_in=before.seams, seams=after.seams, bl_in=before.seam_length, bl=after.seam_length, added_seams=added)
     joined = joined_anew(before, after, sources)
     if len(joined):
         found["problems"].append(f"seams: {len(joined)} removed, first at face {int(after.face[joined[0]])}")

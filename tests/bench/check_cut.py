@@ -157,3 +157,37 @@ def joined_anew(before, after, sources):
     one = np.flatnonzero(after.partner > np.arange(len(after.partner)))
     f, g = sources[after.face[one]], sources[after.face[after.partner[one]]]
     return one[(f != g) & ~np.isin(np.minimum(f, g) * faces + np.maximum(f, g), joined)]
+
+
+def torn_anew(source, before, result, after, sources):
+    """How many edges in space of the result are torn where the input was whole, between parts of one face and along joined edges;
+    an edge along which charts were folded counts once, however it has been divided.
+
+    A part of an input edge is known by its faces, which are parts of two faces that were joined, and by where it lies: not along an
+    edge that was open before."""
+    faces = int(before.face.max()) + 1
+    one = np.flatnonzero(before.partner >= 0)
+    whole = set((before.face[one] * faces + before.face[before.partner[one]]).tolist())
+    seams = {}
+    for h in np.flatnonzero(before.partner < 0).tolist():
+        seams.setdefault(int(before.face[h]), []).append(source.positions[source.corner_vertex[[h, before.next[h]]]])
+    edges = np.sort(np.stack([after.place, after.place[after.next]], axis=1), axis=1)
+    at_edge = {}
+    for h in np.flatnonzero((after.partner < 0) & (edges[:, 0] != edges[:, 1])).tolist():
+        f, ends = int(sources[after.face[h]]), result.positions[result.corner_vertex[[h, after.next[h]]]]
+        if not any(all(distance_to_segment(p, a, b) <= NEAR * np.linalg.norm(b - a) for p in ends) for a, b in seams.get(f, ())):
+            at_edge.setdefault(tuple(edges[h].tolist()), []).append(f)
+    folded = set((before.face[before.fold] * faces + before.face[before.partner[before.fold]]).tolist())
+    torn, parted = 0, set()
+    for parts_of in at_edge.values():
+        while parts_of:
+            f = parts_of.pop()
+            other = next((g for g in parts_of if f == g or f * faces + g in whole), None)
+            if other is None:
+                continue
+            parts_of.remove(other)
+            if f * faces + other in folded:
+                parted.add((min(f, other), max(f, other)))
+            else:
+                torn += 1
+    return torn + len(parted)

@@ -1,11 +1,13 @@
 """The checker itself: it accepts good atlases and finds each kind of defect."""
 
+import itertools
 import math
 import subprocess
 import sys
 from pathlib import Path
 
 import check_atlas
+import numpy as np
 import pytest
 from borders import Boundary
 from exact import exactly_touch
@@ -195,6 +197,88 @@ def test_doubled_vertices_are_no_seam(tmp_path):
     assert (found["problems"], found["charts"], found["seams"]) == ([], 1, 0)
     torn = doubled.replace("vt 1.0 1.0\nvt 0.0 1.0", "vt 0.9 1.0\nvt 0.0 1.0")
     assert "seams: 1 added" in problems(tmp_path, torn, doubled)
+
+
+def separately(chart, moves=lambda face, u, v: (u, v)):
+    """The chart with a UV of its own at every corner, `moves` applied to it; positions stay shared."""
+    positions, uvs, faces = chart
+    corners = [moves(k, *uvs[i]) for k, face in enumerate(faces) for i in face]
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in positions] + [f"vt {float(u)!r} {float(v)!r}" for u, v in corners]
+    first = itertools.count(1)
+    lines += ["f " + " ".join(f"{i + 1}/{next(first)}" for i in face) for face in faces]
+    return "\n".join(lines) + "\n"
+
+
+def noise(face, u, v):
+    random = np.random.default_rng([face, round(1e3 * u), round(1e3 * v)])
+    return u + random.uniform(-3e-7, 3e-7), v + random.uniform(-3e-7, 3e-7)
+
+
+def test_noise_is_no_seam(tmp_path):
+    noisy, whole = separately(sheet(0, 0, 1), noise), separately(sheet(0, 0, 1))
+    kept = check(tmp_path, noisy, noisy)
+    assert (kept["problems"], kept["charts"], kept["seams"]) == ([], 1, 0)
+    moved = check(tmp_path, noisy, whole)
+    assert (moved["problems"], moved["added_seams"], moved["removed_seams"]) == ([], 0, 0)
+
+
+def test_a_noisy_edge_that_is_torn(tmp_path):
+    torn = check(tmp_path, separately(sheet(0, 0, 1), noise), separately(sheet(0, 0, 1), lambda k, u, v: (u, v + 2.0 * (k > 5))))
+    assert torn["added_seams"] == 3
+    assert "seams: 3 added" in torn["problems"][0]
+
+
+def test_noise_in_a_result_is_a_seam(tmp_path):
+    """What was written has to be one to the last bit."""
+    assert "seams: 12 added" in problems(tmp_path, separately(sheet(0, 0, 1), noise), separately(sheet(0, 0, 1)))
+
+
+def test_charts_nearer_than_noise_are_not_one_where_that_is_much_of_an_edge(tmp_path):
+    near = separately(sheet(0, 0, 1e-4), lambda k, u, v: (u, v + 4e-6 * (k > 5)))
+    assert check(tmp_path, near, near)["charts"] == 2
+
+
+def test_a_duplicate_face_is_a_chart(tmp_path):
+    positions, uvs, faces = sheet(0, 0, 1)
+    for double, moves in (
+        (faces[4], lambda k, u, v: (u + 2.0 * (k == 9), v)),
+        (faces[4][::-1], lambda k, u, v: (3 - u, v) if k == 9 else (u, v)),
+    ):
+        doubled = (positions, uvs, [*faces, double])
+        found = check(tmp_path, separately(doubled), separately(doubled, moves))
+        assert (found["problems"], found["charts"], found["added_seams"]) == ([], 2, 0)
+
+
+def test_front_and_back_are_two_charts(tmp_path):
+    positions, uvs, faces = sheet(0, 0, 1)
+    both = (positions, uvs, [*faces, *(face[::-1] for face in faces)])
+    moved = separately(both, lambda k, u, v: (2.5 - u, v) if k >= len(faces) else (u, v))
+    found = check(tmp_path, separately(both), moved)
+    assert (found["problems"], found["charts"], found["added_seams"]) == ([], 2, 0)
+
+
+def test_a_parted_fold_is_counted_and_allowed(tmp_path):
+    positions, uvs, faces = sheet(0, 0, 1)
+    folded = separately((positions, uvs, faces), lambda k, u, v: (min(u, 2 / 3 - u), v))
+    parted = separately((positions, uvs, faces), lambda k, u, v: (u, v + 2.0 * (k % 3 > 0)))
+    found = check(tmp_path, folded.replace("0.33333333333333337", "0.3333333333333333"), parted)
+    assert (found["problems"], found["added_seams"], found["parted_folds"]) == ([], 3, 3)
+
+
+def test_a_pinch_is_no_contact(tmp_path):
+    pinched = text_of(sheet(0, 0, 1, removed=(0, 4)))
+    assert problems(tmp_path, pinched) == ""
+    assert problems(tmp_path, pinched.replace("vt 0.0 0.3333333333333333\n", "vt 0.35 0.2\n")) != ""
+
+
+def test_fans_that_reach_into_each_other_at_a_pinch(tmp_path):
+    """A chart whose first and last faces meet at one vertex; then the last one is turned into the first."""
+    uvs = [(0, 0), (2, -1), (2, 1), (-2, 1), (-2, -1), (-3, 3), (3, 3), (4, 0), (-4, 0)]
+    faces = [(0, 1, 2), (0, 3, 4), (2, 6, 5, 3), (2, 1, 7), (2, 7, 6), (4, 3, 8), (3, 5, 8)]
+    good = mesh(uvs, faces)
+    assert problems(tmp_path, text_of(good)) == ""
+    turned = (good[0], [*uvs[:4], (1.5, -0.3), *uvs[5:]], faces)
+    assert "borders" in problems(tmp_path, text_of(turned), text_of(good))
 
 
 def test_flipped_triangle(tmp_path):

@@ -61,6 +61,12 @@ def test_good_cut(tmp_path):
     assert found["faces"] == 4
 
 
+def test_torn_edges_are_counted(tmp_path):
+    """The cut from vertex 2 to the middle of the diagonal, and half of the diagonal."""
+    assert check(tmp_path, APART)["added_seams"] == 2
+    assert check(tmp_path, BEFORE)["added_seams"] == 0
+
+
 def test_lengths_of_seams(tmp_path):
     """Before: the edge between the square and the quad. After: the cut and the half diagonal as well."""
     found = check(tmp_path, APART)

@@ -1,42 +1,21 @@
 """How the faces of an atlas hang together in UV space: partners of edges, charts, seams, which way faces are wound."""
 
 import numpy as np
-
-
-def components(count, a, b):
-    """Label of each of `count` items, equal where a chain of links a[i] - b[i] joins them."""
-    label = np.arange(count)
-    while True:
-        low = np.minimum(label[a], label[b])
-        joined = label.copy()
-        np.minimum.at(joined, label[a], low)
-        np.minimum.at(joined, label[b], low)
-        while not np.array_equal(joined, joined[joined]):
-            joined = joined[joined]
-        if np.array_equal(joined, label):
-            return np.unique(label, return_inverse=True)[1]
-        label = joined
-
-
-def pairs_of_equal(keys, among):
-    """Every two of the rows `among` whose keys are equal, where exactly two are."""
-    order = among[np.lexsort(keys[among].T[::-1])]
-    first = np.flatnonzero(np.r_[True, np.any(keys[order[1:]] != keys[order[:-1]], axis=1)])
-    size = np.diff(np.r_[first, len(order)])
-    return order[first[size == 2]], order[first[size == 2] + 1]
+from joins import NOISE, NOISE_OF_EDGE, Joins, components
 
 
 class Topology:
     """How the faces hang together in UV space. A half-edge has the number of the corner it starts from.
 
-    Two half-edges are partners where they have the same ends (as vertices, else as positions) and the same UVs there."""
+    Two half-edges are partners where they have the same ends (as vertices, else as positions) and the same UVs there; `as_meant`
+    also where those differ by noise."""
 
-    def __init__(self, obj):
+    def __init__(self, obj, as_meant=False):
         corners, faces = len(obj.corner_vertex), len(obj.offsets) - 1
         self.next = np.arange(corners) + 1
         self.next[obj.offsets[1:] - 1] = obj.offsets[:-1]
         self.face = np.repeat(np.arange(faces), np.diff(obj.offsets))
-        self._join(obj)
+        self._join(obj, as_meant)
         one = np.flatnonzero(self.partner > np.arange(corners))
         two = self.partner[one]
         opposite = self.opposite[one]
@@ -46,24 +25,11 @@ class Topology:
         self.sense = self._senses(obj, one, two)
         self.boundary = np.flatnonzero(self.partner < 0)
 
-    def _join(self, obj):
-        value = np.unique(obj.corner_uv, axis=0, return_inverse=True)[1]
-        place = np.unique(obj.positions + 0.0, axis=0, return_inverse=True)[1][obj.corner_vertex]
-        left = face_areas(obj, self.next) > 0
-        self.partner = np.full(len(value), -1)
-        self.opposite = np.zeros(len(value), dtype=bool)
-        for ends in (obj.corner_vertex, place):
-            here, there = ends, ends[self.next]
-            turned = here > there
-            low, high = np.where(turned, value[self.next], value), np.where(turned, value, value[self.next])
-            keys = np.stack([np.minimum(here, there), np.maximum(here, there), low, high], axis=1)
-            one, two = pairs_of_equal(keys, np.flatnonzero(self.partner < 0))
-            opposite = turned[one] != turned[two]
-            if ends is place:  # the front and the back of a sheet are not joined
-                apart = opposite == (left[self.face[one]] == left[self.face[two]])
-                one, two, opposite = one[apart], two[apart], opposite[apart]
-            self.partner[one], self.partner[two] = two, one
-            self.opposite[one] = self.opposite[two] = opposite
+    def _join(self, obj, as_meant):
+        self.place = place = np.unique(obj.positions + 0.0, axis=0, return_inverse=True)[1].reshape(-1)[obj.corner_vertex]
+        joins = Joins(obj, place, self.next, self.face, face_areas(obj, self.next), as_meant)
+        self.partner, self.opposite = joins.partner, joins.opposite
+        self.fold = (self.partner >= 0) & (joins.side * joins.side[self.partner] * np.where(self.opposite, 1, -1) <= 0)
         edges = np.sort(np.stack([place, place[self.next]], axis=1), axis=1)
         edge = np.unique(edges, axis=0, return_inverse=True)[1]
         shared, joined = np.bincount(edge), np.bincount(edge, self.partner >= 0)
@@ -73,12 +39,46 @@ class Topology:
         self.seams = len(at)
         self.seam_length = float(np.linalg.norm(p[self.next[at]] - p[at], axis=1).sum() / np.linalg.norm(np.ptp(used, axis=0)))
 
+    def _gaps(self, obj):
+        """How far apart the UVs of another file with the same faces are across each joined edge: the larger of both ends."""
+        here, there = self.partner, self.next[self.partner]
+        start, end = np.where(self.opposite, there, here), np.where(self.opposite, here, there)
+        uv = obj.corner_uv
+        gaps = np.maximum(np.linalg.norm(uv - uv[start], axis=1), np.linalg.norm(uv[self.next] - uv[end], axis=1))
+        return np.where(self.partner >= 0, gaps, 0)
+
+    def settled(self, obj):
+        """The UVs with one value where they differ by noise: at the corners of a vertex that of the first, at the vertices of a chart
+        that are one point in space (a pinch) that of the first of them."""
+        uv = obj.corner_uv
+        first = np.unique(self.node, return_index=True)[1]
+        at = np.stack([self.chart[self.face[first]], self.place[first]], axis=1)
+        pinched = first[np.unique(at, axis=0, return_index=True)[1][np.unique(at, axis=0, return_inverse=True)[1].reshape(-1)]]
+        edge = np.full(len(first), np.inf)
+        length = np.linalg.norm(uv[self.next] - uv, axis=1)
+        for end in (self.node, self.node[self.next]):
+            np.minimum.at(edge, end, length)
+        noise = np.minimum(self.noise_of(obj), NOISE_OF_EDGE * np.minimum(edge, edge[self.node[pinched]]))
+        near = np.linalg.norm(uv[first] - uv[pinched], axis=1) <= noise
+        return uv[np.where(near, pinched, first)][self.node]
+
+    @staticmethod
+    def noise_of(obj):
+        return NOISE * min(1.0, float(np.ptp(obj.corner_uv, axis=0).max()))
+
+    def apart(self, obj):
+        return self._gaps(obj) > 0
+
+    def noticeably_apart(self, obj):
+        return self._gaps(obj) > self.noise_of(obj)
+
     def _senses(self, obj, one, two):
         """1 for every face, but -1 for the faces of a chart that are wound against the larger part of it."""
         faces = len(obj.offsets) - 1
         f, g = self.face[one], self.face[two]
         flip = np.where(self.opposite[one], 0, faces)
         side = components(2 * faces, np.r_[f, f + faces], np.r_[g + flip, (g + flip + faces) % (2 * faces)])
+        self.one_sided = (side[:faces] == side[faces:])[self.face]
         first = np.unique(self.chart, return_index=True)[1]
         sense = np.where(side[:faces] == side[first[self.chart]], 1, -1)
         mixed = np.bincount(self.chart, sense < 0) > 0

@@ -83,7 +83,7 @@ TEST(CutAtlas, VerticesKnowWhereTheyLie) {
 
 /// How many triangles of all pieces have each edge of points in space; chart vertices are positive, new points negative.
 std::map<std::pair<int, int>, int> edge_uses(const Laid& laid) {
-  const auto points = space_points(laid.atlas, laid.set);
+  const auto& points = laid.set.points;
   std::map<std::pair<int, int>, int> uses;
   for (const Piece& piece : laid.cut.pieces) {
     const auto id = [&](int v) { return piece.points[v] >= 0 ? ~piece.points[v] : points[piece.chart][piece.vertices[v]]; };
@@ -97,7 +97,7 @@ std::map<std::pair<int, int>, int> edge_uses(const Laid& laid) {
 TEST(CutAtlas, TheSurfaceStaysClosed) {
   for (const Atlas& atlas : testing::many_atlases()) {
     const Laid laid = testing::laid(atlas);
-    const auto points = space_points(laid.atlas, laid.set);
+    const auto& points = laid.set.points;
     const auto positions = chart_positions(laid);
     std::map<std::pair<int, int>, int> before;
     std::map<int, Vec3> where;
@@ -138,7 +138,7 @@ TEST(CutAtlas, BordersOfTwoChartsAreDividedAlike) {
 TEST(CutAtlas, WithoutTrailsChartsStayWhole) {
   const Atlas atlas = shapes::mesh(shapes::u_shape(), 0.12);
   Laid laid = testing::laid(atlas);
-  const CutAtlas divided = divided_atlas({laid.aligned[0].mesh}, laid.set.charts, space_points(atlas, laid.set));
+  const CutAtlas divided = divided_atlas({laid.aligned[0].mesh}, laid.set.charts, laid.set.points);
   const CutAtlas cut = cut_along(divided, laid.set.charts, {});
   EXPECT_EQ(cut.pieces.size(), 1u);
   EXPECT_TRUE(cut.seams.empty());

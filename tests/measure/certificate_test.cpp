@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "input/split_charts.h"
 #include "shapes.h"
@@ -88,6 +89,73 @@ TEST(Certificate, FindsAnOverlapThatNoBoundaryShows) {
   EXPECT_EQ(validity.flipped_faces, 0);
   EXPECT_EQ(validity.crossings, 0);
   EXPECT_NE(validity.problem.find("overlaps itself"), std::string::npos) << validity.problem;
+}
+
+/// One chart of two triangles that meet at (0, 0).
+Validity pinched(const Vec2& second_from, const Vec2& second_to, bool one_point) {
+  Chart chart;
+  chart.uvs = {{0, 0}, {1, -0.2}, {1, 0.2}, {0, 0}, second_from, second_to};
+  chart.triangles = {{0, 1, 2}, {3, 4, 5}};
+  chart.triangle_faces = {0, 1};
+  chart.boundary_loops = {{0, 1, 2}, {3, 4, 5}};
+  return certify_charts({chart}, {{0, 1, 2, one_point ? 0 : 3, 4, 5}});
+}
+
+TEST(Certificate, APinchIsNoContactWhereTheFansStayApart) {
+  EXPECT_TRUE(pinched({-1, 0.2}, {-1, -0.2}, true).valid());
+  EXPECT_FALSE(pinched({-1, 0.2}, {-1, -0.2}, false).valid());
+  EXPECT_TRUE(pinched({0.9, 0.9}, {-0.9, 0.8}, true).valid());
+  EXPECT_EQ(pinched({0.9, 0.9}, {-0.9, 0.8}, true).crossings, 0);
+}
+
+TEST(Certificate, FansThatReachIntoEachOtherAreAContact) {
+  EXPECT_FALSE(pinched({0.9, 0}, {-0.9, 0.8}, true).valid());     // begins inside the first
+  EXPECT_FALSE(pinched({0.5, 0.05}, {0.5, 0.08}, true).valid());  // lies inside it
+  EXPECT_FALSE(pinched({2, -0.5}, {2, 0.5}, true).valid());       // lies around it
+  EXPECT_FALSE(pinched({0.5, 0.1}, {-0.9, 0.8}, true).valid());   // shares a side with it
+}
+
+TEST(Certificate, AHoleWhoseCornersAreAllPinchesIsLeftOpen) {
+  Chart chart;
+  std::vector<int> points;
+  for (const int corner : {0, 2, 5, 8, 10}) {  // a checkerboard: every inner vertex belongs to two quads
+    const int x = corner % 4, y = corner / 4, first = chart.vertex_count();
+    for (const auto& [dx, dy] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+      chart.uvs.push_back({static_cast<double>(x + dx), static_cast<double>(y + dy)});
+      points.push_back((y + dy) * 4 + x + dx);
+    }
+    chart.triangles.push_back({first, first + 1, first + 2});
+    chart.triangles.push_back({first, first + 2, first + 3});
+    chart.boundary_loops.push_back({first, first + 1, first + 2, first + 3});
+  }
+  chart.triangle_faces.assign(chart.triangles.size(), 0);
+  EXPECT_TRUE(certify_charts({chart}, {points}).valid()) << certify_charts({chart}, {points}).problem;
+  // A small chart in one of the holes is apart from it; one inside a quad is not.
+  for (const auto& [x, valid] : {std::pair(1.2, true), {0.2, false}}) {
+    Chart small;
+    small.uvs = {{x, 0.3}, {x + 0.4, 0.3}, {x + 0.2, 0.6}};
+    small.triangles = {{0, 1, 2}};
+    small.triangle_faces = {0};
+    small.boundary_loops = {{0, 1, 2}};
+    EXPECT_EQ(certify_charts({chart, small}, {points, {100, 101, 102}}).valid(), valid) << x;
+  }
+}
+
+TEST(Certificate, ALoopThatTouchesItselfAtAPinchIsStillWound) {
+  // A ring that is closed by a touch only: two tips meet at P, and the loop around it comes to P twice.
+  Atlas atlas = flat_atlas({{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {1, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}, {1, 1, 0}},
+                           {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 8, 7}});
+  // The last quad ends at a corner of its own: the ring is open there from (0, 0) to (1, 1), and folded out at the outer corner.
+  atlas.positions.push_back({-1, 1, 0});
+  atlas.corner_vertices[13] = 9;
+  atlas.corner_uvs[13] = {-1, 1};
+  EXPECT_TRUE(validate(atlas).valid()) << validate(atlas).problem;
+  const ChartSet set = split_charts(atlas);
+  ASSERT_EQ(set.charts.size(), 1u);
+  EXPECT_EQ(set.charts[0].boundary_loops.size(), 1u);
+  // A chart inside the ring's hole is apart from it.
+  const Atlas inside = shapes::mesh(shapes::transformed(shapes::rectangle(0.2, 0.2), 1, 0.3, {1.4, 1.4}), 0.2);
+  EXPECT_TRUE(validate(shapes::combine({atlas, inside})).valid());
 }
 
 TEST(Certificate, CountsMirroredCharts) {

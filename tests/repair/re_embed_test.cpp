@@ -42,7 +42,7 @@ Atlas punctured_torus(int n) {
 }
 
 TEST(ReEmbed, RefusesAHandleAndNamesTheChart) {
-  const std::vector<Chart> charts = testing::charts_of(punctured_torus(5));
+  const std::vector<Chart> charts = split_charts(punctured_torus(5), Joining::Exact).charts;
   ASSERT_EQ(charts.size(), 1u);
   Monitor monitor;
   try {

@@ -17,7 +17,7 @@ struct Measures {
   double unit_square_share = 0;  ///< sum of UV triangle areas: the share of the texture, where the UVs lie in [0, 1]^2
   double boundary_length =
       0;                ///< BL: 3D length of all seams, each once, without natural boundary / diagonal of the 3D bounding box
-  int seam_edges = 0;   ///< 3D edges across which the UVs differ
+  int seam_edges = 0;   ///< 3D edges across which the UVs differ, by more than noise
   int chart_count = 0;  ///< CN
   double smallest_chart = 0;       ///< SA: smallest chart's area / total area, on the surface
   int small_charts = 0;            ///< N3: charts under 3 % of the area
@@ -45,8 +45,12 @@ struct Validity {
 /// Throws RefineError(BadInput) for arrays that do not fit together or hold NaN, BadOption for an aspect outside [0.01, 100].
 Measures measure(const Atlas& atlas, double box_aspect = 0);
 
-/// Exact certificate (Shewchuk-style filtered predicates) on the values as given: every UV triangle strictly positive and
-/// no two boundary edges crossing or touching. Throws RefineError(BadInput) like `measure`.
+/// Exact certificate (Shewchuk-style filtered predicates): every UV triangle strictly positive and no two boundary edges crossing
+/// or touching, but where two vertices of a chart are one point, in space and in the UV plane (a pinch), and the faces there stay
+/// apart. The charts are those that were meant: UVs at the two sides of an edge, and at a pinch, that differ by noise (up to
+/// 1e-4 of the tile, of a smaller atlas' long side, 5 % of the edge) are one, and tested with one value for each vertex: its
+/// first corner's, or what turns no face. Charts folded onto each other are tested apart, as refine() takes them. Throws
+/// RefineError(BadInput) like `measure`.
 Validity validate(const Atlas& atlas);
 
 }  // namespace atlas_refine

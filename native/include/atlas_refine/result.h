@@ -132,7 +132,9 @@ struct RefineResult {
   /// their means by area.
   Measures before;
   Measures after;
-  Gap gap;             ///< the gap that is guaranteed in the result; the least of several groups
+  int added_seams =
+      0;    ///< edges that were whole in the UV map and are torn: cuts, each part of an edge once, and folds that were parted
+  Gap gap;  ///< the gap that is guaranteed in the result; the least of several groups
   double price = 0;    ///< lambda: marginal objective for one unit of log PE at the bound; 0 where it does not bind
   int iterations = 0;  ///< Newton iterations, all stages
   Ended ended = Ended::NotRun;

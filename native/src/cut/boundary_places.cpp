@@ -2,6 +2,7 @@
 #include "cut/boundary_places.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -29,18 +30,24 @@ std::optional<Place> place_of(const std::vector<int>& space_points, const Suppor
   return Place{{std::min(a, b), std::max(a, b)}, a < b ? support.weights[1] : support.weights[0]};
 }
 
-/// The divided boundary of one chart in space.
-struct ChartBoundary {
+/// The divided edges of one chart in space.
+struct ChartEdges {
   const std::vector<int>& space_points;
   const SplitMesh& mesh;
 
-  /// The edge in space of a boundary side; its ends are the edge's, or points on it.
-  SpaceEdge edge_of(int from, int to) const {
+  /// The edge in space that a side runs along; its ends are the edge's, or points on it. Nothing where it runs through a
+  /// triangle.
+  std::optional<SpaceEdge> edge_of(int from, int to) const {
+    std::array<int, 2> ends{-1, -1};
     for (int v : {from, to}) {
-      if (const auto place = place_of(space_points, mesh.supports[v])) return place->edge;
+      for (int w : mesh.supports[v].vertices) {
+        if (w < 0 || w == ends[0] || w == ends[1]) continue;
+        if (ends[1] >= 0) return std::nullopt;
+        ends[ends[0] >= 0] = w;
+      }
     }
-    const int a = space_points[mesh.supports[from].vertices[0]], b = space_points[mesh.supports[to].vertices[0]];
-    return {std::min(a, b), std::max(a, b)};
+    const auto [low, high] = std::minmax(space_points[ends[0]], space_points[ends[1]]);
+    return SpaceEdge{low, high};
   }
   /// Nothing where the vertex does not lie on the edge: a side that runs across triangles has ends on two edges.
   std::optional<double> along_of(int vertex, const SpaceEdge& edge) const {
@@ -54,16 +61,19 @@ struct ChartBoundary {
   }
 };
 
-void collect_places(const SplitMesh& mesh, const std::vector<int>& space_points, Places& places) {
+void collect_places(const SplitMesh& mesh, const std::vector<int>& space_points, const std::set<SpaceEdge>& borders,
+                    Places& places) {
+  const auto collect = [&](const Support& support) {
+    const auto place = place_of(space_points, support);
+    if (!place || !borders.contains(place->edge)) return;
+    std::vector<double>& known = places[place->edge];
+    const auto same = [&](double other) { return std::abs(other - place->along) < kSamePlace; };
+    if (std::none_of(known.begin(), known.end(), same)) known.push_back(place->along);
+  };
   for (const auto& loop : mesh.boundary_loops()) {
-    for (const Side& s : loop) {
-      const auto place = place_of(space_points, mesh.supports[mesh.from(s)]);
-      if (!place) continue;
-      std::vector<double>& known = places[place->edge];
-      const auto same = [&](double other) { return std::abs(other - place->along) < kSamePlace; };
-      if (std::none_of(known.begin(), known.end(), same)) known.push_back(place->along);
-    }
+    for (const Side& s : loop) collect(mesh.supports[mesh.from(s)]);
   }
+  for (const Support& support : mesh.supports) collect(support);
 }
 
 /// Where a side is to be divided, as fractions of its edge in space, in the order of the side.
@@ -78,12 +88,13 @@ std::vector<double> places_within(double start, double end, std::vector<double> 
 }
 
 void divide_side(SplitMesh& mesh, const std::vector<int>& space_points, int from, int to, const Places& places) {
-  const ChartBoundary boundary{space_points, mesh};
-  const SpaceEdge edge = boundary.edge_of(from, to);
-  const auto found = places.find(edge);
+  const ChartEdges edges{space_points, mesh};
+  const auto edge = edges.edge_of(from, to);
+  if (!edge) return;
+  const auto found = places.find(*edge);
   if (found == places.end()) return;
-  auto start = boundary.along_of(from, edge);
-  const auto end = boundary.along_of(to, edge);
+  auto start = edges.along_of(from, *edge);
+  const auto end = edges.along_of(to, *edge);
   if (!start || !end) return;
   for (const double along : places_within(*start, *end, found->second)) {
     const double t = (along - *start) / (*end - *start);
@@ -93,19 +104,37 @@ void divide_side(SplitMesh& mesh, const std::vector<int>& space_points, int from
   }
 }
 
+/// Inner sides too: where more than two faces meet at an edge, some join it inside their chart.
 void divide_sides(SplitMesh& mesh, const std::vector<int>& space_points, const Places& places) {
-  for (const auto& loop : mesh.boundary_loops()) {
-    std::vector<std::pair<int, int>> sides;
-    for (const Side& s : loop) sides.emplace_back(mesh.from(s), mesh.to(s));
-    for (const auto& [from, to] : sides) divide_side(mesh, space_points, from, to, places);
+  std::vector<std::pair<int, int>> sides;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const Side s{t, k};
+      if (mesh.is_boundary(s) || mesh.twin(s).triangle > t) sides.emplace_back(mesh.from(s), mesh.to(s));
+    }
   }
+  for (const auto& [from, to] : sides) divide_side(mesh, space_points, from, to, places);
 }
 
 }  // namespace
 
+std::set<SpaceEdge> borders_in_space(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& space_points) {
+  std::set<SpaceEdge> borders;
+  for (std::size_t c = 0; c < meshes.size(); ++c) {
+    const ChartEdges edges{space_points[c], meshes[c]};
+    for (const auto& loop : meshes[c].boundary_loops()) {
+      for (const Side& s : loop) {
+        if (const auto edge = edges.edge_of(meshes[c].from(s), meshes[c].to(s))) borders.insert(*edge);
+      }
+    }
+  }
+  return borders;
+}
+
 void match_boundaries(std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& space_points) {
+  const std::set<SpaceEdge> borders = borders_in_space(meshes, space_points);
   Places places;
-  for (std::size_t c = 0; c < meshes.size(); ++c) collect_places(meshes[c], space_points[c], places);
+  for (std::size_t c = 0; c < meshes.size(); ++c) collect_places(meshes[c], space_points[c], borders, places);
   for (std::size_t c = 0; c < meshes.size(); ++c) divide_sides(meshes[c], space_points[c], places);
 }
 
@@ -141,7 +170,7 @@ std::vector<int> PointNumbers::of_added(int chart, const SplitMesh& mesh, std::v
 int PointNumbers::number(int chart, const Support& support, bool on_boundary) {
   const auto place = place_of(space_points_[chart], support);
   const int next = static_cast<int>(points_.size());
-  if (on_boundary && place) {
+  if (place && (on_boundary || borders_.contains(place->edge))) {
     auto& known = on_edges_[place->edge];
     for (const auto& [along, point] : known) {
       if (std::abs(along - place->along) < kSamePlace) return point;

@@ -2,28 +2,35 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "cut/cut_atlas.h"
 
 namespace atlas_refine {
 
-/// A boundary edge in space; `low` < `high` are points in space.
+/// An edge in space; `low` < `high` are points in space.
 struct SpaceEdge {
   int low, high;
   bool operator<(const SpaceEdge& other) const { return std::tie(low, high) < std::tie(other.low, other.high); }
 };
 
-/// Divides every boundary side where some chart has a vertex at that place in space, so that the mesh in space stays closed.
-/// `space_points` as in divided_atlas.
+/// The edges in space that some chart's boundary runs along. `space_points` as in divided_atlas.
+std::set<SpaceEdge> borders_in_space(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& space_points);
+
+/// Divides every side along such an edge where some chart has a vertex at that place in space, so that the mesh in space stays
+/// closed. Inside a chart there are such sides where more than two faces meet.
 void match_boundaries(std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& space_points);
 
-/// Numbers the points of divided charts: one number for all vertices at one place of a boundary edge in space.
+/// Numbers the points of divided charts: one number for all vertices at one place of a boundary edge in
+/// space; that is an edge of `borders` also where another chart has it inside.
 class PointNumbers {
  public:
-  PointNumbers(const std::vector<std::vector<int>>& space_points, std::vector<SurfacePoint>& points)
-      : space_points_(space_points), points_(points) {}
+  PointNumbers(const std::vector<std::vector<int>>& space_points, std::vector<SurfacePoint>& points,
+               std::set<SpaceEdge> borders = {})
+      : space_points_(space_points), points_(points), borders_(std::move(borders)) {}
 
   /// Per vertex the index of its point, -1 where it is a vertex of the chart.
   std::vector<int> of_chart(int chart, const SplitMesh& mesh);
@@ -38,6 +45,7 @@ class PointNumbers {
 
   const std::vector<std::vector<int>>& space_points_;
   std::vector<SurfacePoint>& points_;
+  std::set<SpaceEdge> borders_;
   std::map<SpaceEdge, std::vector<std::pair<double, int>>> on_edges_;
 };
 

@@ -154,7 +154,7 @@ CutAtlas whole_atlas(const std::vector<Chart>& charts) {
 CutAtlas divided_atlas(const std::vector<SplitMesh>& meshes, const std::vector<Chart>& sources,
                        const std::vector<std::vector<int>>& space_points) {
   CutAtlas out;
-  PointNumbers numbers(space_points, out.points);
+  PointNumbers numbers(space_points, out.points, borders_in_space(meshes, space_points));
   for (int c = 0; c < static_cast<int>(meshes.size()); ++c) {
     out.pieces.push_back(piece_of(meshes[c], c, sources[c], numbers.of_chart(c, meshes[c])));
     add_openings(meshes[c], sources[c], out.pieces.back(), out.seams);

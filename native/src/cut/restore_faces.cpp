@@ -91,7 +91,7 @@ class Restorer {
     }
   }
 
-  int run() {
+  int run(const std::vector<bool>& border_points) {
     std::vector<char> outer(piece_.mesh.vertex_count(), 0);
     for (const auto& loop : piece_.mesh.boundary_loops) {
       for (int v : loop) outer[v] = 1;
@@ -99,7 +99,9 @@ class Restorer {
     int removed = 0;
     // The last vertex made is the first to go.
     for (int v = piece_.mesh.vertex_count() - 1; v >= 0; --v) {
-      if (piece_.points[v] >= 0 && !outer[v] && remove(v)) ++removed;
+      const int point = piece_.points[v];
+      const bool border = outer[v] || (point >= 0 && !border_points.empty() && border_points[point]);
+      if (point >= 0 && !border && remove(v)) ++removed;
     }
     if (removed > 0) {
       const auto numbers = keep_vertices(piece_, [&](int v) { return !around_[v].empty(); });
@@ -174,6 +176,20 @@ class Restorer {
 
 }  // namespace
 
-int restore_faces(Piece& piece, const Chart& source, double scale) { return Restorer(piece, source, scale).run(); }
+int restore_faces(Piece& piece, const Chart& source, double scale, const std::vector<bool>& border_points) {
+  return Restorer(piece, source, scale).run(border_points);
+}
+
+std::vector<bool> points_on_borders(const CutAtlas& atlas) {
+  std::vector<bool> out(atlas.points.size(), false);
+  for (const Piece& piece : atlas.pieces) {
+    for (const auto& loop : piece.mesh.boundary_loops) {
+      for (int v : loop) {
+        if (piece.points[v] >= 0) out[piece.points[v]] = true;
+      }
+    }
+  }
+  return out;
+}
 
 }  // namespace atlas_refine

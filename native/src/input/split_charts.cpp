@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "atlas_refine/error.h"
 #include "geometry/half_edge_mesh.h"
 #include "geometry/plane.h"
 #include "input/check_atlas.h"
-#include "input/join_edges.h"
-#include "input/places.h"
+#include "input/face_areas.h"
+#include "input/part_folds.h"
+#include "input/settle_noise.h"
 #include "input/surfaces.h"
 #include "support/disjoint_sets.h"
 
@@ -43,27 +45,55 @@ struct ChartSides {
   std::vector<bool> turned_faces;  ///< one per face: it runs backwards in its chart
 };
 
-/// A chart is mirrored where the UV area of its faces, wound as the input has them, sums to less than zero; one whose faces are
-/// wound both ways is not: they do not agree on it. Then u is negated.
+/// The way in which the larger part of a chart's faces lies in the UV plane: by area in space, which a few faces drawn out over
+/// the whole map do not sway, else by area in the plane.
+struct Vote {
+  double in_space = 0, in_plane = 0;
+
+  void add(double doubled_in_space, double doubled_in_plane) {
+    in_plane += doubled_in_plane;
+    if (doubled_in_plane != 0) in_space += doubled_in_plane > 0 ? doubled_in_space : -doubled_in_space;
+  }
+  bool negative() const { return in_space != 0 ? in_space < 0 : in_plane < 0; }
+};
+
+/// A chart is mirrored where the larger part of it lies clockwise as the input winds it; one whose faces are wound both ways is
+/// not: they do not agree on it. Then u is negated.
 /// Either way its faces are turned together so that the chart's area is positive; faces that are not are defects.
 ChartSides orient_charts(const Atlas& atlas, const EdgeJoins& joins, const FaceCharts& charts) {
-  std::vector<double> as_wound(charts.count, 0), as_joined(charts.count, 0);
+  std::vector<Vote> as_wound(charts.count), as_joined(charts.count);
   for (int f = 0; f < atlas.face_count(); ++f) {
-    const double area = doubled_uv_area(atlas, f);
-    as_wound[charts.chart[f]] += area;
-    as_joined[charts.chart[f]] += joins.turned_faces[f] ? -area : area;
+    const double in_space = doubled_area_in_space(atlas, f), in_plane = doubled_uv_area(atlas, f);
+    as_wound[charts.chart[f]].add(in_space, in_plane);
+    as_joined[charts.chart[f]].add(in_space, joins.turned_faces[f] ? -in_plane : in_plane);
   }
   ChartSides sides{std::vector<bool>(charts.count), std::vector<bool>(charts.count), joins.turned_faces};
   for (int f = 0; f < atlas.face_count(); ++f) {
     if (joins.turned_faces[f]) sides.mixed[charts.chart[f]] = true;  // against the chart's first face
   }
-  for (int k = 0; k < charts.count; ++k) sides.mirrored[k] = as_wound[k] < 0 && !sides.mixed[k];
+  for (int k = 0; k < charts.count; ++k) sides.mirrored[k] = as_wound[k].negative() && !sides.mixed[k];
   for (int f = 0; f < atlas.face_count(); ++f) {
     const int k = charts.chart[f];
-    const bool negative = (as_joined[k] < 0) != sides.mirrored[k];
-    if (negative) sides.turned_faces[f] = !sides.turned_faces[f];
+    if (as_joined[k].negative() != sides.mirrored[k]) sides.turned_faces[f] = !sides.turned_faces[f];
   }
   return sides;
+}
+
+/// The parted edges, gathered by what was one chart.
+std::vector<Fold> folds_of(const EdgeJoins& joins, const FaceCharts& charts, const std::vector<std::array<int, 2>>& parted) {
+  const auto chart = [&](int corner) { return charts.chart[joins.corner_faces[corner]]; };
+  DisjointSets whole(charts.count);
+  for (const auto& [c, other] : parted) whole.unite(chart(c), chart(other));
+  std::map<int, Fold> folds;  // by the first chart
+  for (const auto& [c, other] : parted) folds[whole.find(chart(c))].edges.push_back({chart(c), chart(other)});
+  std::vector<Fold> out;
+  for (auto& [first, fold] : folds) {
+    for (const auto& [a, b] : fold.edges) fold.charts.insert(fold.charts.end(), {a, b});
+    std::sort(fold.charts.begin(), fold.charts.end());
+    fold.charts.erase(std::unique(fold.charts.begin(), fold.charts.end()), fold.charts.end());
+    out.push_back(std::move(fold));
+  }
+  return out;
 }
 
 /// UV vertices: corners united across joined edges, so that each has one fan of faces.
@@ -99,13 +129,17 @@ std::vector<std::vector<Value>> at_vertices(const std::vector<CornerRef>& corner
   return values;
 }
 
-std::vector<Chart> charts_with_uvs(const Atlas& atlas, const std::vector<CornerRef>& corners, const std::vector<bool>& mirrored) {
-  auto uvs = at_vertices<Vec2>(corners, mirrored.size(), [&](int c) {
-    const Vec2& p = atlas.corner_uvs[c];
-    return mirrored[corners[c].chart] ? Vec2(-p.x(), p.y()) : p;
-  });
+std::vector<Chart> charts_with_uvs(const Atlas& atlas, const ChartSet& set, Joining joining) {
+  const std::vector<CornerRef>& corners = set.corners;
+  const std::vector<bool>& mirrored = set.mirrored;
+  auto uvs = at_vertices<Vec2>(corners, mirrored.size(), [&](int c) { return atlas.corner_uvs[c]; });
+  if (joining == Joining::AsMeant) settle_noise(atlas, corners, set.points, uvs);
   std::vector<Chart> charts(mirrored.size());
-  for (std::size_t k = 0; k < charts.size(); ++k) charts[k].uvs = std::move(uvs[k]);
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    charts[k].uvs = std::move(uvs[k]);
+    if (!mirrored[k]) continue;
+    for (Vec2& uv : charts[k].uvs) uv.x() = -uv.x();
+  }
   return charts;
 }
 
@@ -133,18 +167,22 @@ std::vector<std::vector<int>> boundary_loops(const Chart& chart) {
 
 }  // namespace
 
-ChartSet split_charts(const Atlas& atlas) {
+ChartSet split_charts(const Atlas& atlas, Joining joining) {
   check_atlas(atlas);
-  const EdgeJoins joins = join_edges(atlas);
+  EdgeJoins joins = join_edges(atlas, joining);
+  std::vector<std::array<int, 2>> parted;
+  if (joining == Joining::AsMeant) parted = part_folds(atlas, joins);
   const FaceCharts face_charts = number_charts(atlas, joins);
   const ChartSides sides = orient_charts(atlas, joins, face_charts);
   ChartSet set;
   set.seam_edges = joins.seam_edges;
   set.seam_length = joins.seam_length;
+  set.folds = folds_of(joins, face_charts, parted);
   set.mirrored = sides.mirrored;
   set.mixed_winding = sides.mixed;
   set.corners = number_vertices(atlas, joins, face_charts);
-  set.charts = charts_with_uvs(atlas, set.corners, set.mirrored);
+  set.points = at_vertices<int>(set.corners, face_charts.count, [&](int c) { return joins.places[atlas.corner_vertices[c]]; });
+  set.charts = charts_with_uvs(atlas, set, joining);
   set.defects = triangulate_faces(atlas, set.corners, sides.turned_faces, set.charts);
   set_surfaces(set.charts, vertex_positions(atlas, set.corners, set.charts.size()));
   for (Chart& chart : set.charts) chart.boundary_loops = boundary_loops(chart);
@@ -158,6 +196,7 @@ ChartSet select_charts(const ChartSet& set, const std::vector<int>& charts) {
   for (const int k : charts) {
     index[k] = static_cast<int>(out.charts.size());
     out.charts.push_back(set.charts[k]);
+    out.points.push_back(set.points[k]);
     out.mirrored.push_back(set.mirrored[k]);
     out.mixed_winding.push_back(set.mixed_winding[k]);
   }
@@ -179,11 +218,6 @@ std::vector<Chart> charts_as_placed(const ChartSet& set) {
     for (std::vector<int>& loop : charts[k].boundary_loops) std::reverse(loop.begin(), loop.end());
   }
   return charts;
-}
-
-std::vector<std::vector<int>> space_points(const Atlas& atlas, const ChartSet& set) {
-  const std::vector<int> place = places(atlas.positions);
-  return at_vertices<int>(set.corners, set.charts.size(), [&](int c) { return place[atlas.corner_vertices[c]]; });
 }
 
 void require_no_flips(const Atlas& atlas, const ChartSet& set) {

@@ -4,6 +4,8 @@
 // are embedded, and apart from each other, exactly where (1) every triangle is positive, (2) no two boundary edges touch, and
 // (3) the boundaries together wind once around the points just left of every loop. (3) finds what the boundaries alone do not
 // show: a chart inside another, and a chart that folds over itself around a branch point.
+// At a pinch, where two fans of a chart meet at one vertex of the surface, borders may touch: they could be drawn apart there, as
+// long as the fans do not reach into each other.
 #include "measure/certificate.h"
 
 #include <limits>
@@ -55,26 +57,81 @@ void check_triangles(const std::vector<Chart>& charts, Validity& validity) {
   }
 }
 
-/// Whether two boundary edges share more than the common vertex that neighbours in a loop have.
-bool in_contact(const BoundaryEdge& a, const BoundaryEdge& b) {
+/// The boundaries, and where in space their vertices are.
+struct Borders {
+  const std::vector<BoundaryEdge> edges;
+  const BoxTree tree;
+  const std::vector<std::vector<int>>& points;
+
+  /// Whether two vertices of a chart are one point, of the surface and of the plane.
+  bool pinched(int chart, int v, const Vec2& at_v, int w, const Vec2& at_w) const {
+    return at_v == at_w && !points.empty() && points[chart][v] == points[chart][w];
+  }
+  bool meet(const BoundaryEdge& a, int v, const Vec2& at_v, int w, const Vec2& at_w) const {
+    return v == w || pinched(a.chart, v, at_v, w, at_w);
+  }
+};
+
+bool fold_onto_each_other(const Vec2& a, const Vec2& middle, const Vec2& b) {
+  return orientation(a, middle, b) == 0 && (a - middle).dot(b - middle) > 0;
+}
+
+/// Whether two boundary edges share more than the common end that neighbours in a loop have, or that a pinch gives them.
+bool in_contact(const Borders& borders, const BoundaryEdge& a, const BoundaryEdge& b) {
   if (a.chart == b.chart) {
-    const bool b_follows = a.to_vertex == b.from_vertex, a_follows = b.to_vertex == a.from_vertex;
-    if (b_follows && a_follows) return true;
-    if (b_follows || a_follows) {
-      const Vec2& middle = b_follows ? a.to : a.from;
-      const Vec2& before = b_follows ? a.from : b.from;
-      const Vec2& after = b_follows ? b.to : a.to;
-      return orientation(before, middle, after) == 0 && (before - middle).dot(after - middle) > 0;
-    }
+    const auto meet = [&](int v, const Vec2& at_v, int w, const Vec2& at_w) { return borders.meet(a, v, at_v, w, at_w); };
+    const bool b_follows = meet(a.to_vertex, a.to, b.from_vertex, b.from);
+    const bool a_follows = meet(b.to_vertex, b.to, a.from_vertex, a.from);
+    const bool same_end = meet(a.to_vertex, a.to, b.to_vertex, b.to);
+    const bool same_start = meet(a.from_vertex, a.from, b.from_vertex, b.from);
+    if (b_follows + a_follows + same_end + same_start > 1) return true;
+    if (b_follows) return fold_onto_each_other(a.from, a.to, b.to);
+    if (a_follows) return fold_onto_each_other(b.from, a.from, a.to);
+    if (same_end) return fold_onto_each_other(a.from, a.to, b.from);
+    if (same_start) return fold_onto_each_other(a.to, a.from, b.to);
   }
   return segments_touch(a.from, a.to, b.from, b.to);
 }
 
-void check_crossings(const std::vector<Chart>& charts, const std::vector<BoundaryEdge>& edges, const BoxTree& tree,
-                     Validity& validity) {
+/// Whether direction x comes before y going counterclockwise from `start`; all are seen from the point `at`, no two are alike.
+bool before(const Vec2& at, const Vec2& start, const Vec2& x, const Vec2& y) {
+  const auto half = [&](const Vec2& p) {
+    const int turn = orientation(at, start, p);
+    return turn > 0 ? 0 : turn < 0 ? 2 : 1;  // straight on lies between the halves
+  };
+  return half(x) != half(y) ? half(x) < half(y) : orientation(at, x, y) > 0;
+}
+
+/// Whether the fans of two boundary vertices at one point reach into each other; each lies left of the edges into and out of it.
+bool fans_overlap(const BoundaryEdge& into_a, const BoundaryEdge& out_of_a, const BoundaryEdge& into_b,
+                  const BoundaryEdge& out_of_b) {
+  const Vec2& at = into_a.to;
+  const Vec2 &start = out_of_a.to, &end = into_a.from;
+  return !(before(at, start, end, out_of_b.to) && before(at, start, out_of_b.to, into_b.from));
+}
+
+/// The edge that follows edges[i] in its loop.
+int following(const std::vector<BoundaryEdge>& edges, int i) {
+  const auto same_loop = [&](int j) { return edges[j].chart == edges[i].chart && edges[j].loop == edges[i].loop; };
+  if (i + 1 < static_cast<int>(edges.size()) && same_loop(i + 1)) return i + 1;
+  return i - edges[i].position;
+}
+
+bool touch_or_cross(const Borders& borders, int i, int j) {
+  const std::vector<BoundaryEdge>& edges = borders.edges;
+  const BoundaryEdge &a = edges[i], &b = edges[j];
+  if (in_contact(borders, a, b)) return true;
+  // A pinch is looked at where both edges run into it.
+  if (a.chart != b.chart || a.to_vertex == b.to_vertex || !borders.pinched(a.chart, a.to_vertex, a.to, b.to_vertex, b.to))
+    return false;
+  return fans_overlap(a, edges[following(edges, i)], b, edges[following(edges, j)]);
+}
+
+void check_crossings(const std::vector<Chart>& charts, const Borders& borders, Validity& validity) {
+  const std::vector<BoundaryEdge>& edges = borders.edges;
   for (int i = 0; i < static_cast<int>(edges.size()) && validity.crossings < kMostCrossings; ++i) {
-    tree.visit_within(edges[i].box(), kTouching, -1, [&](int j) {
-      if (j <= i || !in_contact(edges[i], edges[j])) return true;
+    borders.tree.visit_within(edges[i].box(), kTouching, -1, [&](int j) {
+      if (j <= i || !touch_or_cross(borders, i, j)) return true;
       ++validity.crossings;
       const int a = name_of(charts, edges[i].chart), b = name_of(charts, edges[j].chart);
       note(validity,
@@ -88,44 +145,50 @@ void check_crossings(const std::vector<Chart>& charts, const std::vector<Boundar
   }
 }
 
-/// How often the boundaries, but for the loop of edges[own], wind around the point p that lies on none of them.
-int winding_of_others(const std::vector<BoundaryEdge>& edges, const BoxTree& tree, int own, int* chart_around) {
-  const Vec2 p = edges[own].from;
+/// How often the boundaries, but for the loop of `own`, wind around a point of it just behind its start: where the boundaries
+/// do not cross, it lies on none of them, though its start may (a pinch).
+int winding_of_others(const Borders& borders, const BoundaryEdge& own, int* chart_around) {
+  const Vec2 &p = own.from, &ahead = own.to;
   const Box ray{p, {std::numeric_limits<double>::max(), p.y()}};
+  const auto below = [&](const Vec2& q) { return q.y() < p.y() || (q.y() == p.y() && ahead.y() >= p.y()); };
   int winding = 0;
-  std::vector<int> per_chart;
-  tree.visit_within(ray, kTouching, -1, [&](int i) {
-    const BoundaryEdge& edge = edges[i];
-    if (edge.chart == edges[own].chart && edge.loop == edges[own].loop) return true;
-    const bool up = edge.from.y() <= p.y() && p.y() < edge.to.y();
-    const bool down = edge.to.y() <= p.y() && p.y() < edge.from.y();
-    if ((up && orientation(edge.from, edge.to, p) > 0) || (down && orientation(edge.from, edge.to, p) < 0)) {
-      winding += up ? 1 : -1;
-      if (up) *chart_around = edge.chart;
-    }
+  borders.tree.visit_within(ray, kTouching, -1, [&](int i) {
+    const BoundaryEdge& edge = borders.edges[i];
+    if ((edge.chart == own.chart && edge.loop == own.loop) || below(edge.from) == below(edge.to)) return true;
+    const int up = below(edge.from) ? 1 : -1;
+    int side = orientation(edge.from, edge.to, p);
+    if (side == 0) side = orientation(edge.from, edge.to, ahead);
+    if (side != up) return true;
+    winding += up;
+    if (up > 0) *chart_around = edge.chart;
     return true;
   });
   return winding;
 }
 
-/// Exact: whether the simple loop that starts at edges[first] runs counterclockwise, from the turn at its lowest leftmost vertex.
+/// Exact: whether the loop that starts at edges[first] runs counterclockwise, from the turn at its lowest leftmost vertex; where
+/// it comes there several times (a pinch), one that turns right has the loop's outside behind it.
 bool counterclockwise(const std::vector<BoundaryEdge>& edges, int first, int end) {
   int lowest = first;
   for (int i = first; i < end; ++i) {
     const Vec2 &p = edges[i].from, &q = edges[lowest].from;
     if (p.x() < q.x() || (p.x() == q.x() && p.y() < q.y())) lowest = i;
   }
-  const int before = lowest == first ? end - 1 : lowest - 1;
-  return orientation(edges[before].from, edges[lowest].from, edges[lowest].to) > 0;
+  for (int i = first; i < end; ++i) {
+    if (edges[i].from != edges[lowest].from) continue;
+    const int before = i == first ? end - 1 : i - 1;
+    if (orientation(edges[before].from, edges[i].from, edges[i].to) <= 0) return false;
+  }
+  return true;
 }
 
-void check_windings(const std::vector<Chart>& charts, const std::vector<BoundaryEdge>& edges, const BoxTree& tree,
-                    Validity& validity) {
+void check_windings(const std::vector<Chart>& charts, const Borders& borders, Validity& validity) {
+  const std::vector<BoundaryEdge>& edges = borders.edges;
   const int count = static_cast<int>(edges.size());
   for (int first = 0, end = 0; first < count; first = end) {
     while (end < count && edges[end].chart == edges[first].chart && edges[end].loop == edges[first].loop) ++end;
     int around = edges[first].chart;
-    const int winding = winding_of_others(edges, tree, first, &around);
+    const int winding = winding_of_others(borders, edges[first], &around);
     if (winding == (counterclockwise(edges, first, end) ? 0 : 1)) continue;
     const int chart = name_of(charts, edges[first].chart);
     note(validity,
@@ -138,13 +201,14 @@ void check_windings(const std::vector<Chart>& charts, const std::vector<Boundary
 
 }  // namespace
 
-Validity certify_charts(const std::vector<Chart>& charts) {
+Validity certify_charts(const std::vector<Chart>& charts, const std::vector<std::vector<int>>& points) {
   Validity validity;
   check_triangles(charts, validity);
-  const std::vector<BoundaryEdge> edges = boundary_edges(charts);
-  const BoxTree tree = tree_over(edges);
-  check_crossings(charts, edges, tree, validity);
-  if (validity.valid()) check_windings(charts, edges, tree, validity);
+  std::vector<BoundaryEdge> edges = boundary_edges(charts);
+  BoxTree tree = tree_over(edges);
+  const Borders borders{std::move(edges), std::move(tree), points};
+  check_crossings(charts, borders, validity);
+  if (validity.valid()) check_windings(charts, borders, validity);
   return validity;
 }
 

@@ -13,10 +13,12 @@ namespace atlas_refine {
 inline constexpr double kFarArc = 10 * 0.0025;
 
 /// Exact check of placed charts: every triangle strictly positive, no two boundary edges (of one chart or of two) that cross
-/// or touch except neighbours at their common vertex. Also finds charts that lie wholly inside another chart's interior, and
+/// or touch except neighbours at their common vertex. `points` tells for every vertex of every chart which point in space it is:
+/// with them boundary vertices of one chart that are one point there may lie at one point here too (a pinch), where their faces
+/// stay apart; without, that is a contact. Also finds charts that lie wholly inside another chart's interior, and
 /// charts that overlap themselves without crossing boundaries. Counting of crossings stops at 10000.
 /// `chart` and `face` of the answer are Chart::number, or the index in `charts` where that is -1, and of Chart::triangle_faces.
-Validity certify_charts(const std::vector<Chart>& charts);
+Validity certify_charts(const std::vector<Chart>& charts, const std::vector<std::vector<int>>& points = {});
 
 /// Smallest distance between boundaries of two different charts, absolute; infinity with fewer than two charts.
 double gap_between_charts(const std::vector<Chart>& charts);

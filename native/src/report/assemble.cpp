@@ -155,7 +155,7 @@ AssembledAtlas uncut(const InputAtlas& whole, const Whole& pieces) {
 AssembledAtlas divided(const InputAtlas& whole, bool several, Stored stored, Whole& pieces) {
   add_untouched(whole, pieces);
   // Within one part both sides of each seam are divided alike already.
-  if (several) match_pieces(pieces.atlas, whole.set.charts, space_points(whole.atlas, whole.set), pieces.uvs);
+  if (several) match_pieces(pieces.atlas, whole.set.charts, whole.set.points, pieces.uvs);
   CutFaces faces = cut_faces(whole.atlas, whole.set, pieces.atlas);
   AssembledAtlas out;
   out.mesh = {whole.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
@@ -181,7 +181,10 @@ AssembledAtlas assemble(const InputAtlas& whole, const Participants& participant
   for (const Follower& follower : participants.followers) follow(follower, charts, pieces);
   const bool cut = !pieces.atlas.seams.empty() || !pieces.atlas.points.empty();
   const bool several = parts.size() > 1 || !participants.left.empty() || !participants.followers.empty();
-  return cut ? divided(whole, several, stored, pieces) : uncut(whole, pieces);
+  const int cut_edges = static_cast<int>(pieces.atlas.seams.size());
+  AssembledAtlas out = cut ? divided(whole, several, stored, pieces) : uncut(whole, pieces);
+  out.cut_edges = cut_edges;
+  return out;
 }
 
 }  // namespace atlas_refine

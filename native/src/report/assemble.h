@@ -22,6 +22,7 @@ struct RefinedPart {
 struct AssembledAtlas {
   Atlas mesh;                  ///< as it comes out
   std::optional<CutMesh> cut;  ///< where some part was cut
+  int cut_edges = 0;           ///< that were whole in the input's charts
 };
 
 /// Followers get the UVs, and the cuts, of their leaders; charts of no part keep their own UVs, bit for bit. Where some part is

@@ -178,7 +178,7 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
   CertifiedAtlas out{.stored = meshes_of(atlas)};
   out.uvs = stored_uvs(out.stored, input.origin, options);
   for (const CornerRef& corner : faces.corners) output.corner_uvs.push_back(out.uvs[corner.chart][corner.vertex]);
-  ChartSet set = split_charts(output);
+  ChartSet set = split_charts(output, Joining::Exact);
   require_valid(input, output, set, out.stored, cut);
   stretch_to_texture(set.charts, options.box_aspect);
   out.after = measure_split(set, options.box_aspect);

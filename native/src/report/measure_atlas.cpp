@@ -29,7 +29,7 @@ Measures measure(const Atlas& atlas, double box_aspect) {
   const Participants all = take_part(whole.set, {}, {});
   Measures measures;
   if (!all.parts.empty()) measures = part_of(whole, all.parts.front().charts, box_aspect).measures;
-  measure_seams(atlas, join_edges(atlas), measures);
+  measure_seams(atlas, join_edges(atlas, Joining::AsMeant), measures);
   return measures;
 }
 
@@ -89,7 +89,7 @@ Measures measure_split(const ChartSet& set, double box_aspect) {
 Validity validate(const Atlas& atlas) { return validate_split(split_charts(atlas)); }
 
 Validity validate_split(const ChartSet& set) {
-  Validity validity = certify_charts(charts_as_placed(set));
+  Validity validity = certify_charts(charts_as_placed(set), set.points);
   // Faces count here, and an n-gon counts where its outline crosses itself though some triangulation of it were positive.
   validity.flipped_faces = static_cast<int>(set.defects.size());
   for (std::size_t k = set.mirrored.size(); k-- > 0;) {

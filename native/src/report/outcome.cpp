@@ -103,4 +103,25 @@ void tell_of(const Participants& participants, const std::vector<Done>& done, Jo
   if (done.empty()) journal.warnings.emplace_back("no chart takes part: nothing was changed");
 }
 
+int tell_of_folds(const ChartSet& set, const Participants& participants, const std::vector<Done>& done, Journal& journal) {
+  constexpr int kStays = -1;
+  std::vector<int> goes_with(set.charts.size(), kStays);
+  for (const Done& d : done) {
+    if (d.outcome.intervention == Intervention::Unchanged) continue;
+    for (const int k : d.part.charts) goes_with[k] = k;
+  }
+  for (const Follower& follower : participants.followers) goes_with[follower.chart] = goes_with[follower.leader];
+  int torn = 0;
+  for (const Fold& fold : set.folds) {
+    const auto edges = std::count_if(fold.edges.begin(), fold.edges.end(),
+                                     [&](const auto& sides) { return goes_with[sides[0]] != goes_with[sides[1]]; });
+    if (edges == 0) continue;
+    torn += static_cast<int>(edges);
+    journal.repairs.push_back(
+        {.what = "folded onto each other along " + std::to_string(edges) + (edges == 1 ? " edge, parted" : " edges, parted"),
+         .charts = fold.charts});
+  }
+  return torn;
+}
+
 }  // namespace atlas_refine

@@ -43,4 +43,8 @@ void summarise(const InputAtlas& whole, const Participants& participants, const 
 /// Charts that go with others, that stay as they are, and that overlapped, in words.
 void tell_of(const Participants& participants, const std::vector<Done>& done, Journal& journal);
 
+/// Charts that were one, folded, and have come apart, in words; returns along how many edges. Halves that lie on each other go
+/// together as a stack and stay joined, as do charts that keep their UVs.
+int tell_of_folds(const ChartSet& set, const Participants& participants, const std::vector<Done>& done, Journal& journal);
+
 }  // namespace atlas_refine
