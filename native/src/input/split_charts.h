@@ -1,4 +1,4 @@
-// Input to charts (section 3, "Inputs"): UV connectivity, mirrored charts turned, flips refused or counted.
+// Input to charts (section 3, "Inputs"): UV connectivity, mirrored charts turned, flips counted.
 #pragma once
 
 #include <vector>
@@ -35,9 +35,5 @@ std::vector<Chart> charts_as_placed(const ChartSet& set);
 
 /// For every vertex of every chart a number for the point in space where it lies: equal for equal positions.
 std::vector<std::vector<int>> space_points(const Atlas& atlas, const ChartSet& set);
-
-/// Throws RefineError(BadInput) that names chart and face of the first flipped or zero-area face, and how many there are.
-/// Polygons that cross themselves pass: embedding their chart anew mends them.
-void require_no_flips(const Atlas& atlas, const ChartSet& set);
 
 }  // namespace atlas_refine
