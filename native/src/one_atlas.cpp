@@ -166,7 +166,6 @@ void warn_of_early_end(const Solution& solution, Journal& journal) {
 
 Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const ProgressRange& range, Monitor& monitor,
                    Journal& journal) {
-  require_no_flips(input.atlas, input.set);
   note_mirrored(input, journal);
   const bool holds = holds_already(input, options);
   if (holds && !options.relax) return unchanged(input, options);

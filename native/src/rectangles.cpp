@@ -13,7 +13,7 @@
 #include "measure/distortion.h"
 #include "rectangle_pictures.h"
 #include "reduce/goal.h"
-#include "repair/re_embed.h"
+#include "report/note_repairs.h"
 
 namespace atlas_refine {
 namespace {
@@ -45,18 +45,21 @@ LayoutOptions layout_options(const Refinement& run) {
   return layout;
 }
 
-void embed(const Refinement& run, int c, std::vector<Chart>& charts, std::vector<int>& embedded) {
-  charts[c] = re_embed(charts[c], charts[c].number, run.threads, run.monitor);
-  run.journal.repairs.push_back({.what = "overlapped or touched itself, embedded anew", .charts = {charts[c].number}});
-  embedded.push_back(c);
+/// Charts may overlap themselves here, but every triangle must be positive.
+RepairedCharts with_positive_triangles(const Refinement& run) {
+  RepairOptions options = repair_options(run);
+  options.may_overlap = true;
+  return repair_charts(run.input.set.charts, options, run.monitor);
 }
 
-/// Charts may overlap themselves here, but every triangle must be positive.
-void embed_broken_polygons(const Refinement& run, std::vector<Chart>& charts, std::vector<int>& embedded) {
-  for (const FaceDefect& defect : run.input.set.defects) {
-    if (certify_charts({charts[defect.chart]}).flipped_faces == 0) continue;  // mended with another of its faces
-    embed(run, defect.chart, charts, embedded);
-  }
+/// A chart that is to lie in the layout as it is.
+void make_valid(const Refinement& run, int c, std::vector<Chart>& charts, std::vector<int>& embedded) {
+  RepairOptions options = repair_options(run);
+  options.space_points = nullptr;
+  const RepairedCharts repaired = repair_charts({charts[c]}, options, run.monitor);
+  note_repairs(run, repaired);
+  charts[c] = repaired.atlas.pieces.front().mesh;
+  embedded.push_back(c);
 }
 
 /// Axis-aligned charts at their wanted densities. Those that are left as they are lie in the layout as they are: they must not
@@ -66,7 +69,7 @@ AlignedCharts align(const Refinement& run, std::vector<Chart>& charts, std::vect
   AlignedCharts aligned = align_charts(charts, options, run.monitor);
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
     if (aligned[c].way != AxisAlignedChart::Way::AsItIs || certify_charts({charts[c]}).valid()) continue;
-    embed(run, c, charts, embedded);
+    make_valid(run, c, charts, embedded);
     set_density(charts, wanted_density(run.input.set.charts, run.options.density), run.options.density);
     aligned[c] = std::move(align_charts({charts[c]}, options, run.monitor).front());
   }
@@ -115,6 +118,21 @@ void tell(const Refinement& run, const AlignedCharts& aligned, const Layout& lay
                                " of the box diagonal: no layout holds the bound with a larger one");
 }
 
+/// The meshes' vertices told by those of the input's charts; a chart that was opened has more.
+void refer_to_input(const CutAtlas& repaired, AlignedCharts& aligned) {
+  for (std::size_t c = 0; c < aligned.size(); ++c) {
+    for (Support& support : aligned[c].mesh.supports) {
+      for (int& v : support.vertices) v = v >= 0 ? repaired.pieces[c].vertices[v] : v;
+    }
+  }
+}
+
+/// What divided meshes are parts of: the charts, or the input's where one was opened.
+std::vector<Chart> charts_before_opening(const Refinement& run, const CutAtlas& repaired, std::vector<Chart> charts) {
+  for (const Seam& seam : repaired.seams) charts[seam.chart] = run.input.set.charts[seam.chart];
+  return charts;
+}
+
 /// Charts divided along the trails and taken apart, where the axis-aligned charts lie.
 CutAtlas cut_along_trails(const Refinement& run, const AlignedCharts& aligned, const std::vector<Chart>& charts,
                           const Layout& layout) {
@@ -138,8 +156,8 @@ void place(const Refinement& run, const Layout& layout, CutAtlas& cut) {
 }
 
 /// The objective of the charts as they come: where the paper stops.
-double energy_of_input(const Refinement& run, const std::vector<Chart>& charts) {
-  const Objective objective = goal_of(run.input.set.charts, whole_atlas(charts), run.options);
+double energy_of_input(const Refinement& run, const CutAtlas& repaired, const std::vector<Chart>& charts) {
+  const Objective objective = goal_of(run.input.set.charts, repaired, run.options);
   const std::vector<Chart> start = charts;
   return reduce_distortion({.charts = start, .objective = objective, .max_iterations = 0}).energy;
 }
@@ -177,18 +195,21 @@ Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) 
   const RefineOptions& options = run.options;
   Journal& journal = run.journal;
   Solution out{.intervention = Intervention::Cut};
-  std::vector<Chart> charts = run.input.set.charts;
-  journal.begin_stage("embed", range.part(0, 0.03));
-  embed_broken_polygons(run, charts, out.re_embedded);
+  journal.begin_stage("repair", range.part(0, 0.03));
+  const RepairedCharts repaired = with_positive_triangles(run);
+  out.re_embedded = note_repairs(run, repaired);
+  std::vector<Chart> charts = meshes_of(repaired.atlas);
   set_density(charts, wanted_density(run.input.set.charts, options.density), options.density);
-  const double enough = options.rectangles.until_input ? energy_of_input(run, charts) : 0;
+  const double enough = options.rectangles.until_input ? energy_of_input(run, repaired.atlas, charts) : 0;
 
   journal.begin_stage("align", range.part(0.03, 0.35));  // section 3.1
-  const AlignedCharts aligned = align(run, charts, out.re_embedded);
+  AlignedCharts aligned = align(run, charts, out.re_embedded);
+  refer_to_input(repaired.atlas, aligned);
+  const std::vector<Chart> sources = charts_before_opening(run, repaired.atlas, charts);
 
   journal.begin_stage("layout", range.part(0.35, 0.45));  // section 3.2
   const Layout layout = search_layout(aligned, charts, layout_options(run), run.monitor);
-  out.atlas = cut_along_trails(run, aligned, charts, layout);
+  out.atlas = cut_along_trails(run, aligned, sources, layout);
   if (out.atlas.seams.empty()) return {.needless = true};
   if (journal.draws()) {
     for (const auto& picture : rectangle_pictures(charts, aligned, layout.trails, options.rectangles.sigma))
@@ -203,7 +224,7 @@ Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) 
   wide.value *= kFirstGap;
   ReduceResult reduced = reduce(run, wide, kFirstChange, enough, out.atlas);
   if (reduced.reached && reduced.within_limit) {
-    restore(charts, out.atlas);
+    restore(sources, out.atlas);
     reduced = reduce(run, layout.gap, kLastChange, enough, out.atlas);
   }
   if (!reduced.within_limit) return {.failure = "cut, their distortion stays above the largest allowed"};

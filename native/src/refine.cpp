@@ -2,12 +2,15 @@
 #include "atlas_refine/refine.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "atlas_refine/error.h"
 #include "input/check_atlas.h"
 #include "input/join_edges.h"
 #include "input/take_part.h"
 #include "one_atlas.h"
 #include "report/assemble.h"
+#include "report/note_repairs.h"
 #include "report/options.h"
 #include "report/outcome.h"
 #include "support/monitor.h"
@@ -23,20 +26,45 @@ Vec2 origin_of(const Part& part, const RefineOptions& options) {
   return given ? options.group_origins[part.group] : Vec2(Vec2::Zero());
 }
 
+/// One atlas, without the charts that cannot be made valid: those are left as they are. Nothing where none remains.
+std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOptions& options, const ProgressRange& range,
+                                       Monitor& monitor, Journal& journal, Part& part, std::vector<LeftChart>& left) {
+  const Journal::Mark mark = journal.mark();
+  while (!part.charts.empty()) {
+    InputAtlas input = part_of(whole, part.charts, options.box_aspect);
+    input.origin = origin_of(part, options);
+    try {
+      return refine_one(input, options, range, monitor, journal);
+    } catch (const UnmendedCharts& unmended) {
+      journal.back_to(mark);
+      for (const LeftChart& chart : unmended.charts) {
+        std::erase(part.charts, chart.chart);
+        left.push_back(chart);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 /// Each atlas by itself, one after the other; each has its part of the progress by its number of charts.
-std::vector<Done> refine_parts(const InputAtlas& whole, const Participants& participants, const RefineOptions& options,
+std::vector<Done> refine_parts(const InputAtlas& whole, Participants& participants, const RefineOptions& options,
                                Monitor& monitor, Journal& journal) {
   std::vector<Done> done;
   const double all = static_cast<double>(whole.set.charts.size() - participants.left.size() - participants.followers.size());
   double before = 0;
-  for (const Part& part : participants.parts) {
+  for (Part& part : participants.parts) {
     const double after = before + static_cast<double>(part.charts.size()) / all;
     const Journal::Mark mark = journal.mark();
-    InputAtlas input = part_of(whole, part.charts, options.box_aspect);
-    input.origin = origin_of(part, options);
-    done.push_back({part, refine_one(input, options, kAtlases.part(before, after), monitor, journal)});
+    auto outcome = refine_mendable(whole, options, kAtlases.part(before, after), monitor, journal, part, participants.left);
+    if (outcome) done.push_back({part, std::move(*outcome)});
     if (participants.parts.size() > 1) journal.prefix_from(mark, name_of(part.group, options) + ": ");
     before = after;
+  }
+  if (done.empty() && !participants.parts.empty()) {
+    const LeftChart& first = participants.left.back();
+    throw RefineError(ErrorCode::BadInput, "repair",
+                      message_prefix(whole.atlas) + "chart " + std::to_string(first.chart) + " " + first.reason, first.chart,
+                      whole.set.charts[first.chart].triangle_faces.front());
   }
   return done;
 }
@@ -60,7 +88,7 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
                           Journal& journal) {
   journal.begin_stage("input", kInput);
   const InputAtlas whole = read_atlas(atlas, options.box_aspect);
-  const Participants participants = take_part(whole.set, options, has_uvs);
+  Participants participants = take_part(whole.set, options, has_uvs);
   journal.show("input", charts_as_placed(whole.set));
   std::vector<Done> done = refine_parts(whole, participants, options, monitor, journal);
   RefineResult result;

@@ -1,4 +1,4 @@
-// Embed where charts overlap themselves, place, squeeze.
+// Repair, place, squeeze.
 #include "whole.h"
 
 #include "atlas_refine/error.h"
@@ -7,7 +7,8 @@
 #include "pack/place_charts.h"
 #include "reduce/goal.h"
 #include "reduce/squeeze.h"
-#include "repair/re_embed.h"
+#include "repair/part_touching.h"
+#include "report/note_repairs.h"
 
 namespace atlas_refine {
 namespace {
@@ -23,26 +24,13 @@ bool gap_kept(const std::vector<Chart>& charts, const Gap& gap, double aspect) {
   return gap_between_charts(charts) >= kStartGap * gap.length(box_of_aspect(uv_box(charts), aspect).size());
 }
 
-/// Charts that overlap themselves, or hold polygons that do, are embedded anew.
-std::vector<int> embed_where_needed(const Refinement& run, std::vector<Chart>& charts) {
-  std::vector<int> embedded;
-  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
-    run.monitor.report(static_cast<double>(c) / static_cast<double>(charts.size()));
-    if (certify_charts({charts[c]}, {run.input.set.points[c]}).valid()) continue;
-    charts[c] = re_embed(charts[c], charts[c].number, run.threads, run.monitor);
-    run.journal.repairs.push_back({.what = "overlapped or touched itself, embedded anew", .charts = {charts[c].number}});
-    embedded.push_back(c);
-  }
-  return embedded;
-}
-
 /// Borders that touch at a vertex (a pinch) may stay so where charts are but moved; no barrier can start from contact.
 bool part_pinches(const Refinement& run, std::vector<Chart>& charts) {
   std::vector<int> parted;
-  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
-    if (certify_charts({charts[c]}).valid()) continue;
-    charts[c] = re_embed(charts[c], charts[c].number, run.threads, run.monitor);
-    parted.push_back(charts[c].number);
+  for (Chart& chart : charts) {
+    if (certify_charts({chart}).valid()) continue;
+    if (auto apart = part_touching(chart)) chart = std::move(*apart);
+    parted.push_back(chart.number);
   }
   if (parted.empty()) return false;
   run.journal.repairs.push_back({.what = "touched itself at a vertex, parted there", .charts = parted});
@@ -113,11 +101,12 @@ void squeeze_into(const Refinement& run, const std::vector<std::vector<Chart>>& 
 
 Solution refine_whole(const Refinement& run, const ProgressRange& range) {
   const RefineOptions& options = run.options;
-  std::vector<Chart> charts = run.input.set.charts;
-  run.journal.begin_stage("embed", range.part(0, 0.2));
-  Solution out{.re_embedded = embed_where_needed(run, charts)};
-  const auto& points = run.input.set.points;
-  bool own_is_valid = out.re_embedded.empty() && certify_charts(charts, points).valid();
+  run.journal.begin_stage("repair", range.part(0, 0.2));
+  RepairedCharts repaired = repair_charts(run.input.set.charts, repair_options(run), run.monitor);
+  Solution out{.re_embedded = note_repairs(run, repaired)};
+  std::vector<Chart> charts = meshes_of(repaired.atlas);
+  const auto points = points_in_space(repaired.atlas, run.input.set.points);
+  bool own_is_valid = certify_charts(charts, points).valid();
 
   run.journal.begin_stage("pack", range.part(0.2, 0.4));
   const bool scaled = set_density(charts, wanted_density(run.input.set.charts, options.density), options.density);
@@ -126,7 +115,7 @@ Solution refine_whole(const Refinement& run, const ProgressRange& range) {
   if (const Validity valid = certify_charts(placed, points); !valid.valid())
     throw RefineError(ErrorCode::BadInput, "pack", "charts could not be placed apart: " + valid.problem, valid.chart, valid.face);
   run.journal.show("placed", placed);
-  out.atlas = with_uvs(whole_atlas(charts), uvs_of(placed));
+  out.atlas = with_uvs(std::move(repaired.atlas), uvs_of(placed));
   out.gap = gaps.front();
   if (holds(run, placed) && !options.relax) {
     warn_of_gap(run, out.gap, kNoRoom);

@@ -22,7 +22,7 @@
 #include "measure/distortion.h"
 #include "reduce/goal.h"
 #include "reduce/reduce.h"
-#include "repair/re_embed.h"
+#include "repair/repair_charts.h"
 #include "solve/symmetric_dirichlet.h"
 
 namespace atlas_refine {
@@ -48,7 +48,6 @@ struct Charts {
   explicit Charts(const std::string& path, double texture_width = 1) {
     const auto file = io::read_mesh_file(path);
     ChartSet set = split_charts(file->atlas());
-    require_no_flips(file->atlas(), set);
     for (Chart& chart : set.charts) {
       for (Vec2& uv : chart.uvs) uv.x() *= texture_width;
     }
@@ -79,12 +78,12 @@ Chart relaxed(const Chart& chart, const Gap& gap) {
   return out;
 }
 
-/// From the input: charts that overlap themselves are embedded anew, as refine() does it.
+/// From the input: charts that are not valid are mended, as refine() does it.
 double optimum_from_input(const Charts& input) {
   Monitor monitor;
   return energy_of_optima(input.charts, [&](int c) {
     const bool valid = certify_charts({input.charts[c]}).valid();
-    return valid ? relaxed(input.charts[c], Gap{}) : re_embed(input.charts[c], c, 1, monitor);
+    return valid ? relaxed(input.charts[c], Gap{}) : repair_charts({input.charts[c]}, {}, monitor).atlas.pieces.front().mesh;
   });
 }
 

@@ -240,20 +240,5 @@ TEST(SplitCharts, BadArraysAreNamed) {
   expect_bad_input(atlas, "do not cover");
 }
 
-TEST(SplitCharts, RequireNoDefectsNamesChartAndFace) {
-  Atlas atlas = strip(3);
-  atlas.name = "strip";
-  std::swap(atlas.corner_uvs[5], atlas.corner_uvs[6]);
-  const ChartSet set = split_charts(atlas);
-  try {
-    require_no_flips(atlas, set);
-    ADD_FAILURE();
-  } catch (const RefineError& error) {
-    EXPECT_EQ(error.face(), 1);
-    EXPECT_GE(error.chart(), 0);
-    EXPECT_NE(std::string(error.what()).find("object 'strip': face 1 of chart"), std::string::npos) << error.what();
-  }
-}
-
 }  // namespace
 }  // namespace atlas_refine

@@ -125,7 +125,7 @@ struct CutMesh {
 
 struct RefineResult {
   std::vector<Vec2> corner_uvs;  ///< one per corner of `cut` or, without it, of the input; its own, bit for bit, where Unchanged
-  std::optional<CutMesh> cut;    ///< where faces were divided or added seams run: never with Seams::None
+  std::optional<CutMesh> cut;    ///< where faces were divided or added seams run; with Seams::None only where a chart was opened
   Intervention intervention = Intervention::Unchanged;
   bool bound_met = false;  ///< false only with best_effort, where PE is below the bound; max_distortion holds in every result
   /// Of the charts that take part, stacked ones once. With several groups PE, box and gaps are the least of theirs, distortions

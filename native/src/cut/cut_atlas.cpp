@@ -190,6 +190,16 @@ SplitMesh mesh_of(const Piece& piece) {
   return mesh;
 }
 
+std::vector<std::vector<int>> points_in_space(const CutAtlas& atlas, const std::vector<std::vector<int>>& space_points) {
+  std::vector<std::vector<int>> out;
+  for (const Piece& piece : atlas.pieces) {
+    std::vector<int>& own = out.emplace_back();
+    for (int v = 0; v < piece.mesh.vertex_count(); ++v)
+      own.push_back(piece.vertices[v] < 0 ? ~v : space_points[piece.chart][piece.vertices[v]]);
+  }
+  return out;
+}
+
 std::vector<Chart> meshes_of(const CutAtlas& atlas) {
   std::vector<Chart> out;
   for (const Piece& piece : atlas.pieces) out.push_back(piece.mesh);

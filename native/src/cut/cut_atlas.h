@@ -58,6 +58,10 @@ CutAtlas cut_along(const CutAtlas& atlas, const std::vector<Chart>& sources, std
 /// A piece that can be divided and cut.
 SplitMesh mesh_of(const Piece& piece);
 
+/// For every vertex of every piece a number for the point in space where it lies, as `space_points` has for those of the charts;
+/// vertices that are new have one each of their own.
+std::vector<std::vector<int>> points_in_space(const CutAtlas& atlas, const std::vector<std::vector<int>>& space_points);
+
 std::vector<Chart> meshes_of(const CutAtlas& atlas);
 std::vector<int> charts_of(const CutAtlas& atlas);  ///< of each piece
 /// The atlas with other UVs, one array per piece.

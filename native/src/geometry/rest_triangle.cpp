@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace atlas_refine {
@@ -38,6 +39,25 @@ RestTriangle rest_from_space(const Vec3& p0, const Vec3& p1, const Vec3& p2) {
   if (is_sliver(doubled_area, longest)) return degenerate();
   const double length = e1.norm();
   return from_flat_edges(length, e1.dot(e2) / length, doubled_area / length);
+}
+
+RestTriangle rest_raised(const Vec3& p0, const Vec3& p1, const Vec3& p2, double least_height) {
+  const std::array<Vec3, 3> corners = {p0, p1, p2};
+  int apex = 0;
+  const auto side = [&](int k) -> Vec3 { return corners[(k + 2) % 3] - corners[(k + 1) % 3]; };  // opposite corner k
+  for (int k = 1; k < 3; ++k) {
+    if (side(k).squaredNorm() > side(apex).squaredNorm()) apex = k;
+  }
+  const double length = side(apex).norm();
+  if (!(length > 0)) return degenerate();
+  const Vec3 to_apex = corners[apex] - corners[(apex + 1) % 3];
+  const double along = to_apex.dot(side(apex)) / length;
+  const double height = std::max(to_apex.cross(side(apex)).norm() / length, least_height * length);
+  std::array<Vec2, 3> flat;
+  flat[(apex + 1) % 3] = {0, 0};
+  flat[(apex + 2) % 3] = {length, 0};
+  flat[apex] = {along, height};
+  return rest_from_plane(flat[0], flat[1], flat[2], 1);
 }
 
 RestTriangle rest_from_plane(const Vec2& p0, const Vec2& p1, const Vec2& p2, double scale) {

@@ -12,6 +12,10 @@ inline constexpr double kSliverHeight = 1e-7;
 /// The triangle in the plane, p0 at the origin and p1 on the positive x axis. Zero `area` where it is a sliver.
 RestTriangle rest_from_space(const Vec3& p0, const Vec3& p1, const Vec3& p2);
 
+/// The triangle with its longest side at the bottom and its height raised to `least_height` of that, where it has less: a shape
+/// for slivers. Zero `area` where all corners are one point.
+RestTriangle rest_raised(const Vec3& p0, const Vec3& p1, const Vec3& p2, double least_height);
+
 /// The shape of a triangle of the plane, counterclockwise, times `scale`. Zero `area` where it is a sliver or not positive.
 RestTriangle rest_from_plane(const Vec2& p0, const Vec2& p1, const Vec2& p2, double scale);
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -28,17 +29,23 @@ std::vector<std::pair<int, int>> filled_edges(const Chart& chart, std::size_t ou
 
 }  // namespace
 
+std::size_t longest_loop(const Chart& chart) {
+  const std::vector<double> lengths = make_boundary({chart}, {0}).loop_length;
+  return std::max_element(lengths.begin(), lengths.end()) - lengths.begin();
+}
+
 std::vector<Vec2> tutte_disk(const Chart& chart) {
+  constexpr double kLeastEdge = 0.25;  // of the mean edge: on the circle triangles with two short boundary edges would vanish
   const Boundary boundary = make_boundary({chart}, {0});
-  std::size_t outer = 0;
-  for (std::size_t l = 1; l < boundary.loop_length.size(); ++l) {
-    if (boundary.loop_length[l] > boundary.loop_length[outer]) outer = l;
-  }
+  const std::size_t outer = longest_loop(chart);
+  const double length = boundary.loop_length[outer];
+  const double least = kLeastEdge * length / static_cast<double>(chart.boundary_loops[outer].size());
   const double radius = std::sqrt(chart.surface.area() / std::numbers::pi);
   std::vector<Vec2> circle;
   for (int b = 0; b < boundary.size(); ++b) {
     if (boundary.loop[b] != static_cast<int>(outer)) continue;
-    const double angle = 2 * std::numbers::pi * boundary.arc[b] / boundary.loop_length[outer];
+    const double part = boundary.arc[b] + least * static_cast<double>(circle.size());
+    const double angle = 2 * std::numbers::pi * part / ((1 + kLeastEdge) * length);
     circle.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
   }
   return tutte(chart, outer, circle);

@@ -5,9 +5,13 @@
 
 namespace atlas_refine {
 
-/// UVs of `chart` embedded in a disk of the surface's area: its longest boundary loop on the circle at surface arc lengths, every
-/// other loop filled by one hidden vertex, each interior vertex at the mean of its neighbours. Free of flips and overlaps up to
-/// rounding, which may spoil triangles of strongly shrunk parts: the caller checks. Tutte 1963; positive weights, Floater 2003.
+/// The boundary loop that is longest on the surface.
+std::size_t longest_loop(const Chart& chart);
+
+/// UVs of `chart` embedded in a disk of the surface's area: its longest boundary loop on the circle at surface arc lengths (edges
+/// without length a little apart), every other loop filled by one hidden vertex, each interior vertex at the mean of its
+/// neighbours. Free of flips and overlaps up to rounding, which may spoil triangles of strongly shrunk parts: the caller checks.
+/// Tutte 1963; positive weights, Floater 2003.
 std::vector<Vec2> tutte_disk(const Chart& chart);
 
 /// The same into a convex polygon: vertex k of boundary loop `outer` goes to polygon[k]. Where several of them lie on one

@@ -220,18 +220,4 @@ std::vector<Chart> charts_as_placed(const ChartSet& set) {
   return charts;
 }
 
-void require_no_flips(const Atlas& atlas, const ChartSet& set) {
-  const FaceDefect* first = nullptr;
-  int count = 0;
-  for (const FaceDefect& defect : set.defects) {
-    if (defect.kind == FaceDefect::Kind::CrossesItself) continue;
-    if (!first) first = &defect;
-    ++count;
-  }
-  if (!first) return;
-  std::string message = message_prefix(atlas) + describe(*first, set.charts[first->chart].number);
-  if (count > 1) message += " (and " + std::to_string(count - 1) + " more such faces)";
-  throw RefineError(ErrorCode::BadInput, "input", message, set.charts[first->chart].number, first->face);
-}
-
 }  // namespace atlas_refine

@@ -1,4 +1,4 @@
-// Input to charts (section 3, "Inputs"): UV connectivity, mirrored charts turned, flips refused or counted.
+// Input to charts (section 3, "Inputs"): UV connectivity, mirrored charts turned, flips counted.
 #pragma once
 
 #include <array>
@@ -46,8 +46,5 @@ ChartSet select_charts(const ChartSet& set, const std::vector<int>& charts);
 /// The same charts where the input's UVs lie: mirrored charts are turned back, their triangles still counterclockwise.
 std::vector<Chart> charts_as_placed(const ChartSet& set);
 
-/// Throws RefineError(BadInput) that names chart and face of the first flipped or zero-area face, and how many there are.
-/// Polygons that cross themselves pass: embedding their chart anew mends them.
-void require_no_flips(const Atlas& atlas, const ChartSet& set);
 
 }  // namespace atlas_refine

@@ -14,6 +14,10 @@ using Shapes = std::vector<RestTriangle>;  // of one chart
 
 /// Weight of a face without a shape in space, as a fraction of the mean triangle: it must not count, and must not be zero.
 constexpr double kSliverWeight = 1e-6;
+// What stands for the shape of a face that has none in the UV plane either: its sides in space, this high on the longest one; of
+// a point an equilateral of so much area, as a fraction of the mean triangle.
+constexpr double kRaisedHeight = 0.02;
+constexpr double kPointArea = 1e-4;
 
 Shapes shapes_in_space(const Chart& chart, const std::vector<Vec3>& positions) {
   Shapes shapes;
@@ -47,14 +51,15 @@ double surface_scale(const Chart& chart, const Shapes& shapes) {
   return ratio > 0 && std::isfinite(ratio) ? ratio : 1;
 }
 
-void give_slivers_a_shape(const Chart& chart, double mean, Shapes& shapes) {
+void give_slivers_a_shape(const Chart& chart, const std::vector<Vec3>& positions, double mean, Shapes& shapes) {
   const double scale = surface_scale(chart, shapes);
   for (std::size_t t = 0; t < shapes.size(); ++t) {
     const Triangle& v = chart.triangles[t];
     RestTriangle& rest = shapes[t];
     if (rest.area > 0) continue;
     rest = rest_from_plane(chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]], scale);
-    if (rest.area == 0) rest = rest_equilateral(mean);
+    if (rest.area == 0) rest = rest_raised(positions[v[0]], positions[v[1]], positions[v[2]], kRaisedHeight);
+    if (rest.area == 0) rest = rest_equilateral(kPointArea * mean);
     rest.area = kSliverWeight * mean;
   }
 }
@@ -66,7 +71,7 @@ void set_surfaces(std::vector<Chart>& charts, const std::vector<std::vector<Vec3
   for (std::size_t k = 0; k < charts.size(); ++k) shapes.push_back(shapes_in_space(charts[k], positions[k]));
   const double mean = mean_area(shapes);
   for (std::size_t k = 0; k < charts.size(); ++k) {
-    give_slivers_a_shape(charts[k], mean, shapes[k]);
+    give_slivers_a_shape(charts[k], positions[k], mean, shapes[k]);
     charts[k].surface = Surface(std::move(shapes[k]));
   }
 }

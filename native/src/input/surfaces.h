@@ -8,7 +8,8 @@
 namespace atlas_refine {
 
 /// Gives every chart its surface; `positions` has one point in space for each vertex of each chart. Triangles without a shape in
-/// space (slivers) take the one they have in the UV plane, at the scale of their chart, or an equilateral, and next to no weight.
+/// space (slivers) take the one they have in the UV plane, at the scale of their chart, or a thin one on their longest side, or a
+/// small equilateral, and next to no weight.
 void set_surfaces(std::vector<Chart>& charts, const std::vector<std::vector<Vec3>>& positions);
 
 /// The surface seen from behind, for triangles whose second and third corner change places.

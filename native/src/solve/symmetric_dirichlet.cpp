@@ -33,19 +33,7 @@ void clamp_twist(const Mat2& j, double n, double d, Mat4& hessian) {
 
 }  // namespace
 
-TriangleDerivatives symmetric_dirichlet_derivatives(const Mat2& inverse_edges, const Vec2& p0, const Vec2& p1, const Vec2& p2,
-                                                    bool project) {
-  const Mat2 jac = jacobian(inverse_edges, p0, p1, p2);
-  const Vec4 j(jac(0, 0), jac(1, 0), jac(0, 1), jac(1, 1));
-  const Vec4 cofactor(j[3], -j[2], -j[1], j[0]);
-  const double n = j.squaredNorm();
-  const double d = j[0] * j[3] - j[1] * j[2];
-  TriangleDerivatives out;
-  out.energy = 0.25 * n * (1 + 1 / (d * d));
-  const Vec4 g = 0.5 * (1 + 1 / (d * d)) * j - (0.5 * n / (d * d * d)) * cofactor;
-  Mat4 h = jacobian_hessian(j, cofactor, n, d);
-  if (project) clamp_twist(jac, n, d, h);
-
+TriangleDerivatives on_vertices(const Mat2& inverse_edges, double energy, const Vec4& g, const Mat4& h) {
   // J = sum_k u_k w_k^T with w_1, w_2 the rows of the inverse rest edges and w_0 = -(w_1 + w_2).
   const Eigen::RowVector2d w1 = inverse_edges.row(0);
   const Eigen::RowVector2d w2 = inverse_edges.row(1);
@@ -53,6 +41,8 @@ TriangleDerivatives symmetric_dirichlet_derivatives(const Mat2& inverse_edges, c
     return a[0] * (b[0] * h.block<2, 2>(0, 0) + b[1] * h.block<2, 2>(0, 2)) +
            a[1] * (b[0] * h.block<2, 2>(2, 0) + b[1] * h.block<2, 2>(2, 2));
   };
+  TriangleDerivatives out;
+  out.energy = energy;
   out.gradient[1] = w1[0] * g.head<2>() + w1[1] * g.tail<2>();
   out.gradient[2] = w2[0] * g.head<2>() + w2[1] * g.tail<2>();
   out.gradient[0] = -(out.gradient[1] + out.gradient[2]);
@@ -65,6 +55,19 @@ TriangleDerivatives symmetric_dirichlet_derivatives(const Mat2& inverse_edges, c
   out.diagonal = {Mat2(-(h01.transpose() + h20)), h11, h22};
   out.off_diagonal = {h01, h12, h20};
   return out;
+}
+
+TriangleDerivatives symmetric_dirichlet_derivatives(const Mat2& inverse_edges, const Vec2& p0, const Vec2& p1, const Vec2& p2,
+                                                    bool project) {
+  const Mat2 jac = jacobian(inverse_edges, p0, p1, p2);
+  const Vec4 j(jac(0, 0), jac(1, 0), jac(0, 1), jac(1, 1));
+  const Vec4 cofactor(j[3], -j[2], -j[1], j[0]);
+  const double n = j.squaredNorm();
+  const double d = j[0] * j[3] - j[1] * j[2];
+  const Vec4 g = 0.5 * (1 + 1 / (d * d)) * j - (0.5 * n / (d * d * d)) * cofactor;
+  Mat4 h = jacobian_hessian(j, cofactor, n, d);
+  if (project) clamp_twist(jac, n, d, h);
+  return on_vertices(inverse_edges, 0.25 * n * (1 + 1 / (d * d)), g, h);
 }
 
 }  // namespace atlas_refine

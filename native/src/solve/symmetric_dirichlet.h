@@ -30,6 +30,11 @@ struct TriangleDerivatives {
   std::array<Mat2, 3> off_diagonal;  ///< (0,1), (1,2), (2,0)
 };
 
+/// Derivatives with respect to the vertices of an energy of J = jacobian(...), from its gradient and Hessian in vec(J) (columns
+/// stacked).
+TriangleDerivatives on_vertices(const Mat2& inverse_edges, double energy, const Eigen::Vector4d& gradient,
+                                const Eigen::Matrix4d& hessian);
+
 /// Energy, gradient and projected Hessian for a triangle of weight 1. Only the twist eigenvalue can be negative; it alone
 /// is clamped to zero, so away from strong compression this is the exact Hessian. det J must be positive.
 TriangleDerivatives symmetric_dirichlet_derivatives(const Mat2& inverse_edges, const Vec2& p0, const Vec2& p1, const Vec2& p2,

@@ -1,0 +1,117 @@
+// Tutte's embedding, its rounding mended, and from there downhill.
+#include "repair/embed.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/rest_triangle.h"
+#include "geometry/tutte.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+#include "reduce/reduce.h"
+#include "repair/untangle.h"
+#include "solve/symmetric_dirichlet.h"
+
+namespace atlas_refine {
+namespace {
+
+// The disk that the embedding starts from has a smaller box than what comes out: ask for more than the default gap.
+constexpr double kGapForLargerBox = 1.5;
+constexpr double kGentle = 10;         // E_d of a start that needs no evening out
+constexpr double kCollapsed = 100;     // E_d above which an embedding is no use
+constexpr double kLeastWeight = 1e-3;  // of a triangle, as a fraction of the mean one
+
+/// The triangles on the surface's shapes, the outer boundary where it is, every other loop filled by a fan around a new vertex.
+/// With the outer boundary convex, all of them positive means an embedding.
+Tangle filled_disk(const Chart& chart, std::size_t outer, std::vector<Vec2>& uvs) {
+  Tangle out{.triangles = chart.triangles, .inverse_edges = {}, .weights = {}, .fixed = {}};
+  const double least = kLeastWeight * chart.surface.area() / static_cast<double>(chart.triangles.size());
+  for (const RestTriangle& rest : chart.surface) {
+    out.inverse_edges.push_back(rest.inverse_edges);
+    out.weights.push_back(std::max(least, rest.area));
+  }
+  for (std::size_t l = 0; l < chart.boundary_loops.size(); ++l) {
+    if (l == outer) continue;
+    const std::vector<int>& loop = chart.boundary_loops[l];
+    const int hidden = static_cast<int>(uvs.size());
+    Vec2 middle = Vec2::Zero();
+    for (const int v : loop) middle += uvs[v] / static_cast<double>(loop.size());
+    uvs.push_back(middle);
+    const RestTriangle rest = rest_equilateral(least);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      // The chart lies on the left of the loop, the hole on its right.
+      out.triangles.push_back({loop[(k + 1) % loop.size()], loop[k], hidden});
+      out.inverse_edges.push_back(rest.inverse_edges);
+      out.weights.push_back(least);
+    }
+  }
+  out.fixed.assign(uvs.size(), 0);
+  for (const int v : chart.boundary_loops[outer]) out.fixed[v] = 1;
+  return out;
+}
+
+Mat2 square_root(const Mat2& positive) {
+  const Eigen::SelfAdjointEigenSolver<Mat2> eigen(positive);
+  return eigen.operatorSqrt();
+}
+
+/// The UVs under the linear map with which they have the least E_d: a ribbon's disk becomes a long ellipse. With J the Jacobians,
+/// M = sum of area J J^T and N = sum of area (J J^T)^-1 the sum tr(S M) + tr(S^-1 N) is least where S, the map's square, is
+/// the geometric mean of M^-1 and N.
+Chart stretched(Chart chart) {
+  Mat2 m = Mat2::Zero(), n = Mat2::Zero();
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    const Triangle& v = chart.triangles[t];
+    const Mat2 j = jacobian(chart.surface[t].inverse_edges, chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]]);
+    const Mat2 square = j * j.transpose();
+    m += chart.surface[t].area * square;
+    n += chart.surface[t].area * square.inverse();
+  }
+  const Mat2 root = square_root(m);
+  const Mat2 inverse = root.inverse();
+  const Mat2 map = square_root(inverse * square_root(root * n * root) * inverse);
+  if (!map.allFinite()) return chart;
+  for (Vec2& uv : chart.uvs) uv = map * uv;
+  return chart;
+}
+
+/// A valid start. Tutte's embedding is one but for rounding, yet parts that it shrinks too much would hold the way down up: those
+/// are evened out first.
+std::optional<Chart> on_disk(const Chart& chart, int threads, Monitor& monitor) {
+  Chart disk = chart;
+  disk.uvs = tutte_disk(chart);
+  const bool valid = certify_charts({disk}).valid();
+  if (valid && dirichlet_sums(stretched(disk)).best_energy() < kGentle) return disk;
+  std::vector<Vec2> filled = disk.uvs;
+  Tangle tangle = filled_disk(chart, longest_loop(chart), filled);
+  tangle.stays_positive = valid;
+  if (auto evened = untangle(tangle, std::move(filled), threads, monitor)) {
+    evened->resize(chart.vertex_count());
+    Chart even = chart;
+    even.uvs = std::move(*evened);
+    if (certify_charts({even}).valid()) return even;
+  }
+  if (!valid) return std::nullopt;
+  return disk;
+}
+
+}  // namespace
+
+std::optional<Chart> embed(const Chart& chart, int threads, Monitor& monitor) {
+  std::optional<Chart> start = on_disk(chart, threads, monitor);
+  if (!start) return std::nullopt;
+  if (Chart better = stretched(*start); certify_charts({better}).valid()) start = std::move(better);
+  const std::vector<Chart> charts = {*start};
+  const ReduceProblem problem{.charts = charts, .gap = {.value = kGapForLargerBox * Gap{}.value}, .threads = threads};
+  ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
+    // E_d falls from far above to near 1: its logarithm tells how far the way is.
+    monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
+  });
+  if (!(result.energy <= kCollapsed)) return std::nullopt;
+  start->uvs = std::move(result.uvs[0]);
+  return start;
+}
+
+}  // namespace atlas_refine

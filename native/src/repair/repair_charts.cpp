@@ -1,0 +1,170 @@
+// What is wrong with each chart, and the steps that may mend it.
+#include "repair/repair_charts.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "cut/open_closed.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+#include "repair/bad_triangles.h"
+#include "repair/embed.h"
+#include "repair/part_touching.h"
+#include "repair/untangle_chart.h"
+
+namespace atlas_refine {
+namespace {
+
+using What = ChartRepair::What;
+
+constexpr double kShapeLost = 1.5;  // E_2 above which an embedding anew may serve better
+
+/// One chart after its repair, or why it has none.
+struct Mended {
+  CutAtlas atlas;  ///< of this chart alone
+  What what = What::Embedded;
+  std::string reason;  ///< empty where it was mended
+};
+
+Mended mended(const Chart& chart, What what) { return {.atlas = whole_atlas({chart}), .what = what, .reason = ""}; }
+Mended refused(const std::string& reason) { return {.atlas = {}, .what = What::Embedded, .reason = reason}; }
+
+/// The face with a triangle that no UVs can give an area; -1 without one.
+int face_of_repeated_vertex(const Chart& chart) {
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    const Triangle& v = chart.triangles[t];
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return chart.triangle_faces[t];
+  }
+  return -1;
+}
+
+bool any(const std::vector<char>& flags) { return std::find(flags.begin(), flags.end(), 1) != flags.end(); }
+
+CutAtlas opened(const Chart& chart) {
+  std::vector<SurfacePath> paths;
+  for (const auto& [from, to] : opening_edges(chart)) paths.push_back({0, {from, to}});
+  return cut_along(whole_atlas({chart}), {chart}, paths);
+}
+
+Mended opened_and_embedded(const Chart& chart, const ChartShape& shape, const RepairOptions& options, Monitor& monitor) {
+  const std::string what = shape.loops == 0 ? "has no boundary" : "has a handle";
+  if (!options.open_closed) return refused(what + ": it cannot be flat without a seam; --open-closed allows one");
+  CutAtlas atlas = opened(chart);
+  if (atlas.pieces.size() != 1 || !shape_of(atlas.pieces[0].mesh).fits_plane()) return refused(what + " and could not be opened");
+  const auto embedded = embed(atlas.pieces[0].mesh, options.threads, monitor);
+  if (!embedded) return refused(what + " and, opened, no embedding of acceptable distortion was found");
+  atlas.pieces[0].mesh = *embedded;
+  return {.atlas = std::move(atlas), .what = What::Opened, .reason = ""};
+}
+
+/// Whether most of the chart's surface lies in bad triangles: then there is no shape to keep.
+bool mostly_bad(const Chart& chart, const std::vector<char>& bad) {
+  double area = 0;
+  for (std::size_t t = 0; t < bad.size(); ++t) area += bad[t] ? chart.surface[t].area : 0;
+  return area > 0.5 * chart.surface.area();
+}
+
+double energy(const Chart& chart) { return dirichlet_sums(chart).best_energy(); }
+
+/// In place where that keeps the good triangles' shapes; else in place or anew, whichever is less distorted.
+Mended mend_disk(const Chart& chart, const std::vector<char>& bad, const RepairOptions& options, Monitor& monitor) {
+  std::optional<Chart> in_place;
+  if (!any(bad)) {
+    if (const auto parted = part_touching(chart)) return mended(*parted, What::Parted);
+  } else if (!mostly_bad(chart, bad)) {
+    in_place = untangle_chart(chart, options.may_overlap, options.threads, monitor);
+    if (in_place && distortion_to_good(chart, *in_place) < kShapeLost) return mended(*in_place, What::Untangled);
+  }
+  const auto embedded = embed(chart, options.threads, monitor);
+  if (in_place && (!embedded || energy(*in_place) < energy(*embedded))) return mended(*in_place, What::Untangled);
+  if (embedded) return mended(*embedded, What::Embedded);
+  return refused("overlaps itself and no embedding of acceptable distortion was found");
+}
+
+Mended mend(const Chart& chart, const std::vector<char>& bad, const RepairOptions& options, Monitor& monitor) {
+  const int repeated = face_of_repeated_vertex(chart);
+  if (repeated >= 0) return refused("has a face with two corners at one vertex: face " + std::to_string(repeated));
+  const ChartShape shape = shape_of(chart);
+  if (!shape.fits_plane()) return opened_and_embedded(chart, shape, options, monitor);
+  return mend_disk(chart, bad, options, monitor);
+}
+
+/// Flipped triangles, overlaps, or borders that are apart by rounding only and can be parted; nothing where the chart is fine.
+std::optional<Mended> mended_where_needed(const Chart& chart, int index, const std::vector<char>& bad,
+                                          const RepairOptions& options, Monitor& monitor) {
+  if (any(bad)) return mend(chart, bad, options, monitor);
+  if (options.may_overlap) {
+    if (!options.open_closed || shape_of(chart).fits_plane()) return std::nullopt;
+    return mend(chart, bad, options, monitor);
+  }
+  if (!certify_charts({chart}).valid()) {
+    const bool pinched = options.space_points && certify_charts({chart}, {(*options.space_points)[index]}).valid();
+    return pinched ? std::nullopt : std::optional(mend(chart, bad, options, monitor));
+  }
+  if (!touches_itself(chart)) return std::nullopt;
+  const auto parted = part_touching(chart);
+  if (!parted) return std::nullopt;
+  return mended(*parted, What::Parted);
+}
+
+/// The faces of the bad triangles.
+std::vector<int> faces_of(const Chart& chart, const std::vector<char>& bad) {
+  std::set<int> faces;
+  for (std::size_t t = 0; t < bad.size(); ++t) {
+    if (bad[t]) faces.insert(chart.triangle_faces[t]);
+  }
+  return {faces.begin(), faces.end()};
+}
+
+void append(CutAtlas own, int chart, CutAtlas& all) {
+  for (Piece& piece : own.pieces) {
+    piece.chart = chart;
+    all.pieces.push_back(std::move(piece));
+  }
+  for (const Seam& seam : own.seams) all.seams.push_back({chart, seam.ends});
+}
+
+void repair_chart(const Chart& chart, int index, const RepairOptions& options, Monitor& monitor, RepairedCharts& out) {
+  const std::vector<char> bad = bad_triangles(chart);
+  std::optional<Mended> result = mended_where_needed(chart, index, bad, options, monitor);
+  if (!result || !result->reason.empty()) append(whole_atlas({chart}), index, out.atlas);
+  if (!result) return;
+  ChartRepair repair{.chart = index, .what = result->what, .faces = faces_of(chart, bad)};
+  if (!result->reason.empty()) {
+    out.unmended.push_back({index, repair.faces.empty() ? chart.triangle_faces.front() : repair.faces.front(), result->reason});
+    return;
+  }
+  if (std::find(bad.begin(), bad.end(), 0) != bad.end())
+    repair.distortion_to_input = distortion_to_good(chart, result->atlas.pieces[0].mesh);
+  append(std::move(result->atlas), index, out.atlas);
+  out.repairs.push_back(repair);
+}
+
+}  // namespace
+
+RepairedCharts repair_charts(const std::vector<Chart>& charts, const RepairOptions& options, Monitor& monitor) {
+  RepairedCharts out;
+  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+    monitor.report(static_cast<double>(c) / static_cast<double>(charts.size()));
+    repair_chart(charts[c], c, options, monitor, out);
+  }
+  return out;
+}
+
+std::string in_words(const ChartRepair& repair) {
+  const std::string had = repair.faces.empty() ? "overlapped itself, " : "had flipped or zero-area faces, ";
+  switch (repair.what) {
+    case What::Parted:
+      return "touched itself, touching borders drawn apart";
+    case What::Untangled:
+      return had + "mended in place";
+    case What::Embedded:
+      return had + "embedded anew";
+    case What::Opened:
+      return "had no boundary, or a handle: opened along edges, where a seam is now, and embedded anew";
+  }
+  return "";
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,28 @@
+// Repairs in words.
+#include "report/note_repairs.h"
+
+namespace atlas_refine {
+
+RepairOptions repair_options(const Refinement& run) {
+  return {.space_points = &run.input.set.points, .open_closed = run.options.open_closed, .threads = run.threads};
+}
+
+std::vector<int> note_repairs(const Refinement& run, const RepairedCharts& repaired) {
+  const auto number_of = [&](int chart) { return repaired.atlas.pieces[chart].mesh.number; };
+  if (!repaired.unmended.empty()) {
+    UnmendedCharts unmended;
+    for (const UnmendedChart& chart : repaired.unmended) unmended.charts.push_back({number_of(chart.chart), chart.reason});
+    throw unmended;
+  }
+  std::vector<int> changed;
+  for (const ChartRepair& repair : repaired.repairs) {
+    run.journal.repairs.push_back({.what = in_words(repair),
+                                   .charts = {number_of(repair.chart)},
+                                   .faces = repair.faces,
+                                   .distortion_to_input = repair.distortion_to_input});
+    changed.push_back(repair.chart);
+  }
+  return changed;
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,59 @@
+// Surfaces without a boundary, or with a handle, whose UVs are no map of them.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "atlas_refine/atlas.h"
+
+namespace atlas_refine::shapes {
+
+inline void add_quad(Atlas& atlas, const std::array<int, 4>& vertices) {
+  if (atlas.face_offsets.empty()) atlas.face_offsets = {0};
+  for (const int v : vertices) {
+    atlas.corner_vertices.push_back(v);
+    atlas.corner_uvs.push_back(atlas.positions[v].head<2>());
+  }
+  atlas.face_offsets.push_back(atlas.corner_count());
+}
+
+/// A torus of quads, radii 3 and 1; every face whose number is a multiple of (faces / holes) is left out. UVs: seen from above.
+inline Atlas torus(int around, int tube, int holes = 0) {
+  Atlas atlas;
+  for (int i = 0; i < around * tube; ++i) {
+    const double a = 2 * std::numbers::pi * (i / tube) / around, b = 2 * std::numbers::pi * (i % tube) / tube;
+    atlas.positions.emplace_back((3 + std::cos(b)) * std::cos(a), (3 + std::cos(b)) * std::sin(a), std::sin(b));
+  }
+  const auto at = [&](int i, int j) { return (i % around) * tube + j % tube; };
+  for (int f = 0; f < around * tube; ++f) {
+    if (holes > 0 && f % (around * tube / holes) == 0) continue;
+    const int i = f / tube, j = f % tube;
+    add_quad(atlas, {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+  }
+  return atlas;
+}
+
+/// A cube of n x n quads a side, its vertices on a sphere; doubled vertices along the cube's edges lie at equal positions. UVs:
+/// seen from above.
+inline Atlas cube_sphere(int n) {
+  Atlas atlas;
+  for (int side = 0; side < 6; ++side) {
+    const int first = static_cast<int>(atlas.positions.size());
+    const int axis = side / 2;
+    const double sign = side % 2 == 0 ? 1 : -1;
+    for (int k = 0; k < (n + 1) * (n + 1); ++k) {
+      Vec3 p;
+      p[axis] = n * sign;
+      p[(axis + 1) % 3] = (2 * (k % (n + 1)) - n) * sign;
+      p[(axis + 2) % 3] = 2 * (k / (n + 1)) - n;
+      atlas.positions.push_back(p / std::sqrt(p.dot(p)));
+    }
+    for (int f = 0; f < n * n; ++f) {
+      const int at = first + f / n * (n + 1) + f % n;
+      add_quad(atlas, {at, at + 1, at + n + 2, at + n + 1});
+    }
+  }
+  return atlas;
+}
+
+}  // namespace atlas_refine::shapes

@@ -1,0 +1,84 @@
+// Charts that no plane can hold: what opens them.
+#include "cut/open_closed.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "charts.h"
+#include "closed_shapes.h"
+#include "cut/cut_atlas.h"
+#include "shapes.h"
+
+namespace atlas_refine {
+namespace {
+
+Chart only_chart(const Atlas& atlas) {
+  const std::vector<Chart> charts = testing::charts_of(atlas);
+  EXPECT_EQ(charts.size(), 1u);
+  return charts.front();
+}
+
+CutAtlas opened(const Chart& chart) {
+  std::vector<SurfacePath> paths;
+  for (const auto& [from, to] : opening_edges(chart)) paths.push_back({0, {from, to}});
+  return cut_along(whole_atlas({chart}), {chart}, paths);
+}
+
+TEST(OpenClosed, TellsWhatFitsThePlane) {
+  EXPECT_TRUE(shape_of(only_chart(shapes::mesh(shapes::ring()))).fits_plane());
+  EXPECT_EQ(shape_of(only_chart(shapes::cube_sphere(4))).loops, 0);
+  EXPECT_EQ(shape_of(only_chart(shapes::cube_sphere(4))).handles, 0);
+  EXPECT_EQ(shape_of(only_chart(shapes::torus(12, 8))).handles, 1);
+  EXPECT_EQ(shape_of(only_chart(shapes::torus(12, 8, 1))).handles, 1);
+  EXPECT_EQ(shape_of(only_chart(shapes::torus(12, 8, 1))).loops, 1);
+}
+
+TEST(OpenClosed, OpensSpheresAndToriToDisks) {
+  for (const Atlas& atlas : {shapes::cube_sphere(1), shapes::cube_sphere(5), shapes::torus(16, 8), shapes::torus(4, 3)}) {
+    const Chart chart = only_chart(atlas);
+    const CutAtlas cut = opened(chart);
+    ASSERT_EQ(cut.pieces.size(), 1u);
+    const ChartShape shape = shape_of(cut.pieces[0].mesh);
+    EXPECT_EQ(shape.loops, 1);
+    EXPECT_EQ(shape.handles, 0);
+    EXPECT_EQ(cut.pieces[0].mesh.triangles.size(), chart.triangles.size());
+  }
+}
+
+TEST(OpenClosed, HolesStayWhereAHandleIsOpened) {
+  for (const int holes : {1, 3}) {
+    const CutAtlas cut = opened(only_chart(shapes::torus(16, 10, holes)));
+    ASSERT_EQ(cut.pieces.size(), 1u);
+    EXPECT_TRUE(shape_of(cut.pieces[0].mesh).fits_plane());
+  }
+}
+
+TEST(OpenClosed, RunsAlongEdgesOfFacesOnly) {
+  const Atlas atlas = shapes::torus(16, 8);
+  const Chart chart = only_chart(atlas);
+  std::set<std::pair<int, int>> diagonals;
+  for (std::size_t t = 0; t + 1 < chart.triangles.size(); ++t) {
+    if (chart.triangle_faces[t] != chart.triangle_faces[t + 1]) continue;
+    std::vector<int> shared;
+    for (const int v : chart.triangles[t]) {
+      for (const int w : chart.triangles[t + 1]) {
+        if (v == w) shared.push_back(v);
+      }
+    }
+    ASSERT_EQ(shared.size(), 2u);
+    diagonals.insert(std::minmax(shared[0], shared[1]));
+  }
+  ASSERT_EQ(diagonals.size(), static_cast<std::size_t>(atlas.face_count()));
+  for (const auto& [a, b] : opening_edges(chart)) EXPECT_FALSE(diagonals.contains(std::minmax(a, b)));
+}
+
+TEST(OpenClosed, LoopsOfATorusAreShort) {
+  // Radii 3 and 1: the shortest cut to a disk is one loop round the tube and one through the hole, 2 pi (1 + 2).
+  const Chart chart = only_chart(shapes::torus(48, 16));
+  const CutAtlas cut = opened(chart);
+  EXPECT_LE(cut.seams.size(), 48u + 16u);
+}
+
+}  // namespace
+}  // namespace atlas_refine

@@ -1,0 +1,86 @@
+// Embeddings of charts whose UVs are of no use: long ones, tall ones, and ones with holes.
+#include "repair/embed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "charts.h"
+#include "shapes.h"
+
+namespace atlas_refine {
+namespace {
+
+/// Columns x rows quads whose positions are `point(i, j)`; all UVs at one place but for what keeps the chart whole.
+template <class Point>
+Chart sheet(int columns, int rows, bool closed, const Point& point) {
+  Atlas atlas;
+  const int across = closed ? columns : columns + 1;
+  for (int k = 0; k < across * (rows + 1); ++k) atlas.positions.push_back(point(k % across, k / across));
+  atlas.face_offsets = {0};
+  for (int f = 0; f < columns * rows; ++f) {
+    const int i = f % columns, j = f / columns, next = (i + 1) % across;
+    for (const int v : {j * across + i, j * across + next, (j + 1) * across + next, (j + 1) * across + i}) {
+      atlas.corner_vertices.push_back(v);
+      atlas.corner_uvs.emplace_back(v % 7, v % 5);
+    }
+    atlas.face_offsets.push_back(atlas.corner_count());
+  }
+  return testing::charts_of(atlas).at(0);
+}
+
+double embedded_energy(const Chart& chart) {
+  Monitor monitor;
+  const auto embedded = embed(chart, 2, monitor);
+  if (!embedded) return std::numeric_limits<double>::infinity();
+  testing::expect_certified({*embedded});
+  EXPECT_EQ(embedded->triangles, chart.triangles);
+  const auto again = embed(chart, 1, monitor);
+  EXPECT_TRUE(testing::same_bits(embedded->uvs, again->uvs));
+  return dirichlet_sums(*embedded).best_energy();
+}
+
+Vec3 on_tube(int i, int j, int around, double radius) {
+  const double angle_rad = 2 * std::numbers::pi * i / around;
+  return {radius * std::cos(angle_rad), radius * std::sin(angle_rad), static_cast<double>(j)};
+}
+
+TEST(Embed, ALongRibbonBecomesStraight) {
+  const Chart ribbon = sheet(400, 3, false, [](int i, int j) { return Vec3(i, j, 0.3 * std::sin(0.2 * i)); });
+  EXPECT_LT(embedded_energy(ribbon), 1.001);
+}
+
+TEST(Embed, ATallTubeCutOpenBecomesFlat) {
+  const Chart tube = sheet(24, 300, false, [](int i, int j) { return on_tube(i, j, 24, 3.8 + 1e-3 * i); });
+  EXPECT_LT(embedded_energy(tube), 1.001);
+}
+
+TEST(Embed, ATallTubeWithoutASeamBecomesARing) {
+  // Fifty times as tall as its radius: Tutte's disk shrinks the far end to 1e-20.
+  const Chart tube = sheet(16, 130, true, [](int i, int j) { return on_tube(i, j, 16, 2.6); });
+  EXPECT_LT(embedded_energy(tube), 30);
+}
+
+TEST(Embed, BlobsOnNarrowNecksKeepTheirSizes) {
+  const Chart blobs = sheet(20, 120, false, [](int i, int j) -> Vec3 {
+    return on_tube(i, 0, 25, 0.15 + 3 * std::abs(std::sin(0.13 * j))) + Vec3(0, 0, 0.5 * j);
+  });
+  EXPECT_LT(embedded_energy(blobs), 1.1);
+}
+
+TEST(Embed, ManyHolesStayOpen) {
+  shapes::Polygon plate = shapes::rectangle(1, 1);
+  for (int k = 0; k < 16; ++k) {
+    const Vec2 at(0.15 + 0.23 * (k % 4), 0.15 + 0.23 * (k / 4));
+    plate.holes.push_back({at, at + Vec2(0, 0.14), at + Vec2(0.02, 0.14), at + Vec2(0.02, 0)});
+  }
+  EXPECT_LT(embedded_energy(testing::charts_of(shapes::mesh(plate, 0.05, 0)).at(0)), 1.01);
+}
+
+TEST(Embed, ACombIsNotCrushed) {
+  EXPECT_LT(embedded_energy(testing::charts_of(shapes::mesh(shapes::comb(12), 0.03, 0)).at(0)), 1.02);
+}
+
+}  // namespace
+}  // namespace atlas_refine
