@@ -1,11 +1,14 @@
 // The whole method, top to bottom: charts, who takes part, each atlas by itself, all put together again.
 #include "atlas_refine/refine.h"
 
+#include <algorithm>
+
 #include "input/check_atlas.h"
 #include "input/join_edges.h"
 #include "input/take_part.h"
 #include "one_atlas.h"
 #include "report/assemble.h"
+#include "report/locked.h"
 #include "report/options.h"
 #include "report/outcome.h"
 #include "support/monitor.h"
@@ -32,6 +35,7 @@ std::vector<Done> refine_parts(const InputAtlas& whole, const Participants& part
     const Journal::Mark mark = journal.mark();
     InputAtlas input = part_of(whole, part.charts, options.box_aspect);
     input.origin = origin_of(part, options);
+    put_in_texture(input, options);
     done.push_back({part, refine_one(input, options, kAtlases.part(before, after), monitor, journal)});
     if (participants.parts.size() > 1) journal.prefix_from(mark, name_of(part.group, options) + ": ");
     before = after;
@@ -54,7 +58,8 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   const InputAtlas whole = read_atlas(atlas, options.box_aspect);
   const Participants participants = take_part(whole.set, options, has_uvs);
   journal.show("input", charts_as_placed(whole.set));
-  std::vector<Done> done = refine_parts(whole, participants, options, monitor, journal);
+  std::vector<Done> done =
+      refine_parts(whole, participants, with_kept_leaders(whole.set, participants.followers, options), monitor, journal);
   RefineResult result;
   summarise(whole, participants, options, done, result);
   tell_of(participants, done, journal);
@@ -63,6 +68,7 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   measure_seams(assembled.mesh, join_edges(assembled.mesh), result.after);
   result.corner_uvs = std::move(assembled.mesh.corner_uvs);
   result.cut = std::move(assembled.cut);
+  restore_locked_corners(whole, options, result);
   return result;
 }
 
@@ -79,12 +85,20 @@ RefineResult refine_usable(const Atlas& atlas, const RefineOptions& options, Mon
   return result;
 }
 
+/// Where some chart is locked the box is the texture, which is square unless said otherwise.
+RefineOptions with_texture(RefineOptions options) {
+  const bool locked = std::any_of(options.locked.begin(), options.locked.end(), [](char flag) { return flag != 0; });
+  if (locked && options.box_aspect == 0) options.box_aspect = 1;
+  return options;
+}
+
 }  // namespace
 
 const char* version() { return ATLAS_REFINE_VERSION; }
 
-RefineResult refine(const Atlas& atlas, const RefineOptions& options, const ProgressFn& progress, DebugSink* debug) {
-  check_options(atlas, options);
+RefineResult refine(const Atlas& atlas, const RefineOptions& asked, const ProgressFn& progress, DebugSink* debug) {
+  check_options(atlas, asked);
+  const RefineOptions options = with_texture(asked);
   RefineResult result;
   run_monitored(progress, [&](Monitor& monitor) {
     Journal journal(monitor, debug, options.box_aspect);

@@ -1,6 +1,8 @@
 // Embed where charts overlap themselves, place, squeeze.
 #include "whole.h"
 
+#include <cmath>
+
 #include "atlas_refine/error.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
@@ -8,6 +10,7 @@
 #include "reduce/goal.h"
 #include "reduce/squeeze.h"
 #include "repair/re_embed.h"
+#include "report/locked.h"
 
 namespace atlas_refine {
 namespace {
@@ -15,20 +18,39 @@ namespace {
 constexpr double kRoughly = 0.75;       // of the bound: a packing good enough to compare with
 constexpr double kRounding = 1 + 1e-6;  // storing single precision must not lose the bound
 
-double packing_efficiency(const std::vector<Chart>& charts, double aspect) {
-  return uv_area(charts) / box_of_aspect(uv_box(charts), aspect).area();
+Box box_of(const PlacedCharts& placed, double aspect) {
+  return placed.has_frame() ? Box{Vec2::Zero(), placed.frame} : box_of_aspect(uv_box(placed.charts), aspect);
 }
 
-bool gap_kept(const std::vector<Chart>& charts, const Gap& gap, double aspect) {
-  return gap_between_charts(charts) >= kStartGap * gap.length(box_of_aspect(uv_box(charts), aspect).size());
+double packing_efficiency(const PlacedCharts& placed, double aspect) {
+  const Box box = box_of(placed, aspect);
+  if (!placed.has_frame()) return uv_area(placed.charts) / box.area();
+  double area = 0;
+  for (const Chart& chart : placed.charts) area += area_within(chart, box);
+  return area / box.area();
+}
+
+bool gap_kept(const PlacedCharts& placed, const Freedoms& freedom, const Gap& gap, double aspect) {
+  return gap_between_charts(placed.charts, freedom) >= kStartGap * gap.length(box_of(placed, aspect).size());
+}
+
+std::vector<Chart> movable_of(const std::vector<Chart>& charts, const Freedoms& freedom) {
+  std::vector<Chart> out;
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    if (!is_fixed(freedom, c)) out.push_back(charts[c]);
+  }
+  return out;
 }
 
 /// Charts that overlap themselves, or hold polygons that do, are embedded anew.
-std::vector<int> embed_where_needed(const Refinement& run, std::vector<Chart>& charts) {
+std::vector<int> embed_where_needed(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts) {
   std::vector<int> embedded;
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
     run.monitor.report(static_cast<double>(c) / static_cast<double>(charts.size()));
-    if (certify_charts({charts[c]}).valid()) continue;
+    if (is_fixed(freedom, c)) continue;
+    const Validity validity = certify_charts({charts[c]});
+    if (validity.valid()) continue;
+    if (!bends(freedom, c)) refuse_kept_shape(charts[c].number, validity);
     charts[c] = re_embed(charts[c], charts[c].number, run.threads, run.monitor);
     run.journal.repairs.push_back({.what = "overlapped or touched itself, embedded anew", .charts = {charts[c].number}});
     embedded.push_back(c);
@@ -36,22 +58,39 @@ std::vector<int> embed_where_needed(const Refinement& run, std::vector<Chart>& c
   return embedded;
 }
 
-bool holds(const Refinement& run, const std::vector<Chart>& placed) {
+bool holds(const Refinement& run, const PlacedCharts& placed) {
   const RefineOptions& options = run.options;
-  const bool allowed = !options.max_distortion || dirichlet_sums(placed).best_energy() <= *options.max_distortion;
+  const bool allowed = !options.max_distortion || dirichlet_sums(placed.charts).best_energy() <= *options.max_distortion;
   return allowed && packing_efficiency(placed, options.box_aspect) >= kRounding * options.pe_bound;
 }
 
-/// The packer's layout and, where it is a valid start, the artist's: of a large atlas only the tighter one is tried.
-std::vector<std::vector<Chart>> starts_of(const Refinement& run, const std::vector<Chart>& own, bool own_is_valid,
-                                          const std::vector<Chart>& placed, const Gap& gap) {
-  constexpr std::size_t kLarge = 30000;
+/// The artist's layout, which is valid, at the size that the charts have in `charts`; nothing where it is no start.
+std::optional<PlacedCharts> own_layout(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom,
+                                       const Gap& gap) {
   const double aspect = run.options.box_aspect;
-  if (!own_is_valid || !gap_kept(own, gap, aspect)) return {placed};
+  PlacedCharts own{.charts = charts};
+  if (any_fixed(freedom)) {
+    own.charts = run.input.set.charts;
+    if (!lies_in_texture(own.charts, freedom, aspect)) return std::nullopt;
+    const double scale = std::sqrt(uv_area(movable_of(charts, freedom)) / uv_area(movable_of(own.charts, freedom)));
+    own.frame = scale * Vec2(aspect, 1);
+    for (Chart& chart : own.charts) {
+      for (Vec2& uv : chart.uvs) uv *= scale;
+    }
+  }
+  if (!gap_kept(own, freedom, gap, aspect)) return std::nullopt;
+  return own;
+}
+
+/// The packer's layout and, where it is a valid start, the artist's: of a large atlas only the tighter one is tried.
+std::vector<PlacedCharts> starts_of(const Refinement& run, const std::optional<PlacedCharts>& own, const PlacedCharts& placed) {
+  constexpr std::size_t kLarge = 30000;
+  if (!own) return {placed};
   std::size_t triangles = 0;
-  for (const Chart& chart : own) triangles += chart.triangles.size();
-  if (triangles <= kLarge) return {placed, own};
-  return {packing_efficiency(own, aspect) > packing_efficiency(placed, aspect) ? own : placed};
+  for (const Chart& chart : own->charts) triangles += chart.triangles.size();
+  if (triangles <= kLarge) return {placed, *own};
+  const double aspect = run.options.box_aspect;
+  return {packing_efficiency(*own, aspect) > packing_efficiency(placed, aspect) ? *own : placed};
 }
 
 std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts) {
@@ -61,15 +100,29 @@ std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts) {
   return out;
 }
 
-std::vector<Chart> place(const Refinement& run, const std::vector<Chart>& charts, const Gap& gap, double good_enough) {
-  const PlaceOptions options{gap, run.options.box_aspect, good_enough, run.options.seed, run.threads};
-  return place_charts(charts, options, run.monitor);
+PlacedCharts place(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap,
+                   double good_enough) {
+  const PlaceOptions options{gap,         run.options.box_aspect, good_enough,           run.options.seed,
+                             run.threads, run.options.rotate,     run.options.align_axes};
+  if (!any_fixed(freedom)) return {.charts = place_charts(charts, options, run.monitor)};
+  auto placed = place_around(charts, freedom, options, run.monitor);
+  if (!placed)
+    throw RefineError(
+        ErrorCode::BoundNotReached, "pack",
+        "the locked charts leave the others no room" + words_on_kept(run.input.set.charts, freedom, options.box_aspect));
+  return std::move(*placed);
 }
 
-std::vector<Gap> gaps_of(const Refinement& run, const std::vector<Chart>& charts) {
+std::vector<Gap> gaps_of(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom) {
   const RefineOptions& options = run.options;
   if (options.gap) return {*options.gap};
-  return automatic_gaps(charts, options.pe_bound, options.box_aspect);
+  if (!any_fixed(freedom)) return automatic_gaps(charts, options.pe_bound, options.box_aspect);
+  const Box texture{Vec2::Zero(), Vec2(options.box_aspect, 1)};
+  double taken = 0;
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    if (is_fixed(freedom, c)) taken += area_within(charts[c], texture);
+  }
+  return automatic_gaps(movable_of(charts, freedom), options.pe_bound, options.box_aspect, taken / texture.area());
 }
 
 void warn_of_gap(const Refinement& run, const Gap& gap, const std::string& why) {
@@ -78,49 +131,85 @@ void warn_of_gap(const Refinement& run, const Gap& gap, const std::string& why) 
                                  number_text("%g", gap.value) + " of the box diagonal: " + why);
 }
 
-void squeeze_into(const Refinement& run, const std::vector<std::vector<Chart>>& starts, const std::vector<Gap>& gaps,
-                  Solution& out) {
+Squeezed squeeze_from(const Refinement& run, const std::vector<PlacedCharts>& starts, const Freedoms& freedom,
+                      const std::vector<Gap>& gaps, double max_distortion) {
   const SqueezeOptions options{.pe_bound = run.options.pe_bound,
                                .box_aspect = run.options.box_aspect,
                                .gaps = gaps,
-                               .max_distortion = run.options.max_distortion.value_or(0),
-                               .threads = run.threads};
-  const Objective objective = goal_of(run.input.set.charts, out.atlas, run.options);
-  Squeezed best = squeeze(starts, objective, options, run.monitor);
-  run.journal.iterations += best.iterations;
-  out.intervention = Intervention::Squeezed;
+                               .max_distortion = max_distortion,
+                               .threads = run.threads,
+                               .freedom = freedom};
+  const Objective objective = goal_of(run.input.set.charts, whole_atlas(starts.front().charts), run.options);
+  Squeezed squeezed = squeeze(starts, objective, options, run.monitor);
+  run.journal.iterations += squeezed.iterations;
+  return squeezed;
+}
+
+void squeeze_into(const Refinement& run, const std::vector<PlacedCharts>& starts, const Freedoms& freedom,
+                  const std::vector<Gap>& gaps, Solution& out) {
+  const Squeezed best = squeeze_from(run, starts, freedom, gaps, run.options.max_distortion.value_or(0));
+  if (!none_bends(freedom)) out.intervention = Intervention::Squeezed;
   out.atlas = with_uvs(std::move(out.atlas), best.outcome.uvs);
+  out.atlas.frame = best.outcome.frame;
   out.gap = best.gap;
   out.ended = ended_of(best.outcome.status);
   out.price = best.outcome.price;
   warn_of_gap(run, best.gap, best.gap_note);
 }
 
+/// The box that charts need grows with their area and half the gap around them: PE at another gap, from that at one.
+double likely_pe(const Refinement& run, const PlacedCharts& placed, const Freedoms& freedom, const Gap& gap, const Gap& other) {
+  const std::vector<Chart> movable = movable_of(placed.charts, freedom);
+  const Vec2 box = box_of(placed, run.options.box_aspect).size();
+  const auto grown = [&](const Gap& g) { return uv_area(movable) + 0.5 * g.length(box) * uv_perimeter(movable); };
+  return packing_efficiency(placed, run.options.box_aspect) * grown(gap) / grown(other);
+}
+
+/// Placed with the first gap or, where no chart bends, with the first with which placing them is enough, if there is one.
+PlacedCharts place_with(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom,
+                        std::vector<Gap>& gaps) {
+  constexpr double kPromising = 0.99;  // of the bound
+  PlacedCharts placed = place(run, charts, freedom, gaps.front(), run.options.pe_bound);
+  if (!none_bends(freedom) || holds(run, placed)) return placed;
+  for (std::size_t k = 1; k < gaps.size(); ++k) {
+    if (likely_pe(run, placed, freedom, gaps.front(), gaps[k]) < kPromising * run.options.pe_bound) continue;
+    PlacedCharts closer = place(run, charts, freedom, gaps[k], run.options.pe_bound);
+    if (!holds(run, closer)) continue;
+    gaps.erase(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(k));
+    return closer;
+  }
+  return placed;
+}
+
 }  // namespace
 
 Solution refine_whole(const Refinement& run, const ProgressRange& range) {
   const RefineOptions& options = run.options;
+  const Freedoms freedom = freedom_of(run.input.set, options);
   std::vector<Chart> charts = run.input.set.charts;
   run.journal.begin_stage("embed", range.part(0, 0.2));
-  Solution out{.re_embedded = embed_where_needed(run, charts)};
-  const bool own_is_valid = out.re_embedded.empty() && certify_charts(charts).valid();
+  Solution out{.re_embedded = embed_where_needed(run, freedom, charts)};
+  const bool own_is_valid = out.re_embedded.empty() && certify_charts(charts, freedom).valid();
 
   run.journal.begin_stage("pack", range.part(0.2, 0.4));
-  const bool scaled = set_density(charts, wanted_density(run.input.set.charts, options.density), options.density);
-  const std::vector<Gap> gaps = gaps_of(run, charts);
-  const std::vector<Chart> placed = place(run, charts, gaps.front(), options.pe_bound);
-  if (const Validity valid = certify_charts(placed); !valid.valid())
+  const bool scaled = set_density(charts, wanted_density(run.input.set.charts, options.density), options.density, freedom);
+  std::vector<Gap> gaps = gaps_of(run, charts, freedom);
+  const PlacedCharts placed = place_with(run, charts, freedom, gaps);
+  if (const Validity valid = certify_charts(placed.charts, freedom); !valid.valid())
     throw RefineError(ErrorCode::BadInput, "pack", "charts could not be placed apart: " + valid.problem, valid.chart, valid.face);
-  run.journal.show("placed", placed);
-  out.atlas = with_uvs(whole_atlas(charts), uvs_of(placed));
+  run.journal.show("placed", placed.charts);
+  out.atlas = with_uvs(whole_atlas(charts), uvs_of(placed.charts));
+  out.atlas.frame = placed.frame;
   out.gap = gaps.front();
-  if (holds(run, placed) && !options.relax) {
+  if (holds(run, placed) && !(options.relax && !none_bends(freedom))) {
     warn_of_gap(run, out.gap, kNoRoom);
     return out;
   }
 
   run.journal.begin_stage("squeeze", range.part(0.4, 1));
-  squeeze_into(run, starts_of(run, charts, own_is_valid && !scaled, placed, gaps.front()), gaps, out);
+  std::optional<PlacedCharts> own;
+  if (own_is_valid && !scaled && !options.align_axes) own = own_layout(run, charts, freedom, gaps.front());
+  squeeze_into(run, starts_of(run, own, placed), freedom, gaps, out);
   return out;
 }
 
@@ -129,20 +218,14 @@ std::optional<double> distortion_without_cuts(const Refinement& run, double most
   for (const Chart& chart : charts) {
     if (!certify_charts({chart}).valid()) return std::nullopt;
   }
+  const Freedoms freedom = freedom_of(run.input.set, run.options);
   const bool scaled = set_density(charts, wanted_density(charts, run.options.density), run.options.density);
-  const std::vector<Gap> gaps = gaps_of(run, charts);
+  const std::vector<Gap> gaps = gaps_of(run, charts, freedom);
   // The artist's layout spares a packing.
-  const bool own = !scaled && certify_charts(charts).valid() && gap_kept(charts, gaps.front(), run.options.box_aspect);
-  const std::vector<Chart> start = own ? charts : place(run, charts, gaps.front(), kRoughly * run.options.pe_bound);
-  const SqueezeOptions options{.pe_bound = run.options.pe_bound,
-                               .box_aspect = run.options.box_aspect,
-                               .gaps = gaps,
-                               .max_distortion = most,
-                               .threads = run.threads};
-  const Objective objective = goal_of(run.input.set.charts, whole_atlas(charts), run.options);
-  const Squeezed squeezed = squeeze({start}, objective, options, run.monitor);
-  run.journal.iterations += squeezed.iterations;
-  const ReduceResult& result = squeezed.outcome;
+  std::optional<PlacedCharts> start;
+  if (!scaled && certify_charts(charts).valid()) start = own_layout(run, charts, freedom, gaps.front());
+  if (!start) start = place(run, charts, freedom, gaps.front(), kRoughly * run.options.pe_bound);
+  const ReduceResult result = squeeze_from(run, {*start}, freedom, gaps, most).outcome;
   if (!result.reached || !result.within_limit) return std::nullopt;
   return result.distortion;
 }

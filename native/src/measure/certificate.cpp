@@ -37,8 +37,9 @@ void note(Validity& validity, const std::string& problem, int chart, int face = 
   validity.face = face;
 }
 
-void check_triangles(const std::vector<Chart>& charts, Validity& validity) {
+void check_triangles(const std::vector<Chart>& charts, const Freedoms& freedom, Validity& validity) {
   for (std::size_t k = 0; k < charts.size(); ++k) {
+    if (is_fixed(freedom, k)) continue;
     const Chart& chart = charts[k];
     int last_face = -1;
     for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
@@ -70,11 +71,15 @@ bool in_contact(const BoundaryEdge& a, const BoundaryEdge& b) {
   return segments_touch(a.from, a.to, b.from, b.to);
 }
 
+bool both_fixed(const Freedoms& freedom, const BoundaryEdge& a, const BoundaryEdge& b) {
+  return is_fixed(freedom, a.chart) && is_fixed(freedom, b.chart);
+}
+
 void check_crossings(const std::vector<Chart>& charts, const std::vector<BoundaryEdge>& edges, const BoxTree& tree,
-                     Validity& validity) {
+                     const Freedoms& freedom, Validity& validity) {
   for (int i = 0; i < static_cast<int>(edges.size()) && validity.crossings < kMostCrossings; ++i) {
     tree.visit_within(edges[i].box(), kTouching, -1, [&](int j) {
-      if (j <= i || !in_contact(edges[i], edges[j])) return true;
+      if (j <= i || both_fixed(freedom, edges[i], edges[j]) || !in_contact(edges[i], edges[j])) return true;
       ++validity.crossings;
       const int a = name_of(charts, edges[i].chart), b = name_of(charts, edges[j].chart);
       note(validity,
@@ -88,15 +93,17 @@ void check_crossings(const std::vector<Chart>& charts, const std::vector<Boundar
   }
 }
 
-/// How often the boundaries, but for the loop of edges[own], wind around the point p that lies on none of them.
-int winding_of_others(const std::vector<BoundaryEdge>& edges, const BoxTree& tree, int own, int* chart_around) {
+/// How often the boundaries, but for the loop of edges[own] and, where its chart is fixed, all fixed ones, wind around its start,
+/// which lies on none of them.
+int winding_of_others(const std::vector<BoundaryEdge>& edges, const BoxTree& tree, const Freedoms& freedom, int own,
+                      int* chart_around) {
   const Vec2 p = edges[own].from;
   const Box ray{p, {std::numeric_limits<double>::max(), p.y()}};
   int winding = 0;
   std::vector<int> per_chart;
   tree.visit_within(ray, kTouching, -1, [&](int i) {
     const BoundaryEdge& edge = edges[i];
-    if (edge.chart == edges[own].chart && edge.loop == edges[own].loop) return true;
+    if ((edge.chart == edges[own].chart && edge.loop == edges[own].loop) || both_fixed(freedom, edge, edges[own])) return true;
     const bool up = edge.from.y() <= p.y() && p.y() < edge.to.y();
     const bool down = edge.to.y() <= p.y() && p.y() < edge.from.y();
     if ((up && orientation(edge.from, edge.to, p) > 0) || (down && orientation(edge.from, edge.to, p) < 0)) {
@@ -120,13 +127,14 @@ bool counterclockwise(const std::vector<BoundaryEdge>& edges, int first, int end
 }
 
 void check_windings(const std::vector<Chart>& charts, const std::vector<BoundaryEdge>& edges, const BoxTree& tree,
-                    Validity& validity) {
+                    const Freedoms& freedom, Validity& validity) {
   const int count = static_cast<int>(edges.size());
   for (int first = 0, end = 0; first < count; first = end) {
     while (end < count && edges[end].chart == edges[first].chart && edges[end].loop == edges[first].loop) ++end;
     int around = edges[first].chart;
-    const int winding = winding_of_others(edges, tree, first, &around);
-    if (winding == (counterclockwise(edges, first, end) ? 0 : 1)) continue;
+    const int winding = winding_of_others(edges, tree, freedom, first, &around);
+    const bool alone = is_fixed(freedom, edges[first].chart) || counterclockwise(edges, first, end);
+    if (winding == (alone ? 0 : 1)) continue;
     const int chart = name_of(charts, edges[first].chart);
     note(validity,
          around == edges[first].chart
@@ -138,13 +146,13 @@ void check_windings(const std::vector<Chart>& charts, const std::vector<Boundary
 
 }  // namespace
 
-Validity certify_charts(const std::vector<Chart>& charts) {
+Validity certify_charts(const std::vector<Chart>& charts, const Freedoms& freedom) {
   Validity validity;
-  check_triangles(charts, validity);
+  check_triangles(charts, freedom, validity);
   const std::vector<BoundaryEdge> edges = boundary_edges(charts);
   const BoxTree tree = tree_over(edges);
-  check_crossings(charts, edges, tree, validity);
-  if (validity.valid()) check_windings(charts, edges, tree, validity);
+  check_crossings(charts, edges, tree, freedom, validity);
+  if (validity.valid()) check_windings(charts, edges, tree, freedom, validity);
   return validity;
 }
 
