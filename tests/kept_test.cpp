@@ -325,6 +325,56 @@ TEST(Locked, TheBitsDoNotDependOnTheThreads) {
   EXPECT_TRUE(testing::same_bits(one.corner_uvs, refine(atlas, options).corner_uvs));
 }
 
+TEST(Locked, ChartsOfATileStayInIt) {
+  Atlas atlas = five_charts();
+  for (Vec2& uv : atlas.corner_uvs) uv += Vec2(1, 2);
+  const RefineResult result = refine(atlas, {.pe_bound = 0.8,
+                                             .groups = std::vector<int>(atlas.face_count(), 0),
+                                             .group_origins = {{1, 2}},
+                                             .locked = flag(atlas, {2})});
+  EXPECT_TRUE(result.bound_met);
+  const std::vector<int> chart_of = chart_of_faces(atlas);
+  std::vector<Chart> charts = testing::charts_of(testing::with_corner_uvs(atlas, result.corner_uvs));
+  testing::expect_certified(charts);
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    for (int c = atlas.face_offsets[f]; c < atlas.face_offsets[f + 1]; ++c) {
+      if (chart_of[f] == 2) {
+        EXPECT_EQ(result.corner_uvs[c], atlas.corner_uvs[c]);
+      }
+      EXPECT_GE((result.corner_uvs[c] - Vec2(1, 2)).minCoeff(), 0);
+      EXPECT_LE((result.corner_uvs[c] - Vec2(1, 2)).maxCoeff(), 1);
+    }
+  }
+  EXPECT_NEAR(uv_area(charts), result.after.pe_fixed_aspect, 1e-9);
+}
+
+/// A second chart at the place of the C, which goes with it.
+Atlas with_stack() {
+  const shapes::Polygon c = shapes::transformed(shapes::c_shape(), 0.4, 0, {0.1, 0.5});
+  return shapes::combine({five_charts(), shapes::mesh(c, 0.04)});
+}
+
+TEST(Locked, ChartsOnEachOtherStayToTheBit) {
+  const Atlas atlas = with_stack();
+  for (const std::vector<int>& locked : {std::vector<int>{2}, {5}, {2, 5}}) {
+    const RefineResult result = refine(atlas, {.pe_bound = 0.8, .locked = flag(atlas, locked)});
+    EXPECT_TRUE(result.bound_met);
+    for (const int chart : {2, 5}) {
+      const Pair pair = uvs_of_chart(atlas, result, chart);
+      EXPECT_TRUE(testing::same_bits(pair.before, pair.after)) << chart;
+    }
+  }
+}
+
+TEST(KeptShape, OfAChartOnAnotherKeepsBoth) {
+  const Atlas atlas = with_stack();
+  const RefineResult result = testing::refine_soundly(five_charts(), {.pe_bound = 0.85});
+  EXPECT_GT(procrustes(uvs_of_chart(five_charts(), result, 2)).error, 1e-4);  // it bends where it may
+  const RefineResult kept = refine(atlas, {.pe_bound = 0.85, .keep_shape = flag(atlas, {5})});
+  EXPECT_TRUE(kept.bound_met);
+  for (const int chart : {2, 5}) EXPECT_LT(procrustes(uvs_of_chart(atlas, kept, chart)).error, 1e-12) << chart;
+}
+
 TEST(Kept, FlagsThatDoNotFitTheFacesAreRefused) {
   const Atlas atlas = five_charts();
   EXPECT_EQ(testing::refusal(atlas, {.keep_shape = {1, 0}}).code(), ErrorCode::BadOption);

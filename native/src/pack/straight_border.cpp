@@ -8,9 +8,10 @@
 namespace atlas_refine {
 namespace {
 
-// As fractions of the boundary's length: what counts as a border,
-constexpr double kLeastRun = 0.12;
-// and how far its vertices may lie beside the line. Along a circle a run is a twentieth.
+// As fractions of the boundary's length: what counts as a border. Of the charts of real atlases panels, planks and strips have
+// 0.2 and more, organic ones less than 0.1, garments and cells up to 0.14.
+constexpr double kLeastRun = 0.15;
+// How far its vertices may lie beside the line. Along a circle a run is a twentieth.
 constexpr double kStrip = 0.002;
 
 std::vector<Vec2> outer_boundary(const Chart& chart) {
