@@ -102,8 +102,13 @@ std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts) {
 
 PlacedCharts place(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap,
                    double good_enough) {
-  const PlaceOptions options{gap,         run.options.box_aspect, good_enough,           run.options.seed,
-                             run.threads, run.options.rotate,     run.options.align_axes};
+  const PlaceOptions options{.gap = gap,
+                             .box_aspect = run.options.box_aspect,
+                             .target_pe = good_enough,
+                             .seed = run.options.seed,
+                             .threads = run.threads,
+                             .rotate = run.options.rotate,
+                             .align_axes = run.options.align_axes};
   if (!any_fixed(freedom)) return {.charts = place_charts(charts, options, run.monitor)};
   auto placed = place_around(charts, freedom, options, run.monitor);
   if (!placed)
