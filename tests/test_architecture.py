@@ -22,6 +22,7 @@ LEVELS = [
     ["repair"],
     ["report"],
     ["rectangle_pictures"],
+    ["place_and_squeeze"],
     ["rectangles", "whole"],
     ["one_atlas"],
     ["refine", "group_by_tile"],

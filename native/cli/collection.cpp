@@ -54,12 +54,11 @@ int Collection::face_count() const {
   return count;
 }
 
-std::vector<double> Collection::of_atlas(const std::vector<double>& face_values) const {
-  std::vector<double> result;
+std::vector<int> Collection::faces_of_atlas() const {
+  std::vector<int> result;
   int first = 0;
   for (const File& file : files_) {
-    for (int face = 0; face < file.mesh->atlas().face_count(); ++face)
-      result.push_back(face_values[first + file.mesh->face_number(face)]);
+    for (int face = 0; face < file.mesh->atlas().face_count(); ++face) result.push_back(first + file.mesh->face_number(face));
     first += file.mesh->face_count();
   }
   return result;

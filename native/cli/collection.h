@@ -27,7 +27,12 @@ class Collection {
   /// Of all files, with the faces that are not in atlas().
   int face_count() const;
   /// Of one value for each face of the files those for the faces of atlas().
-  std::vector<double> of_atlas(const std::vector<double>& face_values) const;
+  template <class Value>
+  std::vector<Value> of_atlas(const std::vector<Value>& face_values) const {
+    std::vector<Value> result;
+    for (int face : faces_of_atlas()) result.push_back(face_values[face]);
+    return result;
+  }
 
   /// Groups for RefineOptions, and their names: materials of one name are one in all files, objects of each file are its own.
   void group_by_material(RefineOptions& options) const;
@@ -66,6 +71,8 @@ class Collection {
     std::optional<CutMesh> cut;
   };
   const File& file_of_face(int face) const;
+  /// Of each face of atlas() the number among the faces of all files.
+  std::vector<int> faces_of_atlas() const;
   Part part(const File& file, const RefineResult& result) const;
   CutMesh cut_of(const File& file, const CutMesh& whole, std::size_t first, std::size_t last) const;
   NewVertex in_file(const File& file, const CutMesh& whole, int vertex, int corner) const;

@@ -165,6 +165,22 @@ void add_distortion(CLI::App& app, CommandLine& line) {
       [&](const Value& v) { line.importance = v.text; });
 }
 
+void add_kept(CLI::App& app, CommandLine& line) {
+  RefineOptions& options = line.options;
+  add(app, "--keep-shape", "FILE",
+      "0 or 1 for each face of IN, in its order: charts with a face of 1 are only moved, their shapes stay [all 0]",
+      [&](const Value& v) { line.keep_shape = v.text; });
+  add(app, "--locked", "FILE",
+      "The same: charts with a face of 1 stay where they are in the texture, others go around them [all 0]",
+      [&](const Value& v) { line.locked = v.text; });
+  add(app, "--rotate", "any|90|none", "How charts may be turned where they are only moved [any]", [&](const Value& v) {
+    if (v.text != "any" && v.text != "90" && v.text != "none") v.refuse("must be 'any', '90' or 'none'");
+    options.rotate = v.text == "any" ? Rotate::Any : v.text == "90" ? Rotate::QuarterTurns : Rotate::None;
+  });
+  add_flag(app, "--align-axes", options.align_axes,
+           "Where charts are moved, turn those whose longest border runs straight so that it lies on an axis");
+}
+
 void add_rectangles(CLI::App& app, Draft& draft) {
   RectangleOptions& options = draft.line.options.rectangles;
   const auto add_one = [&](const char* name, const char* unit, const std::string& help, const Setter& set) {
@@ -254,6 +270,8 @@ CommandLine settled_refine(Draft draft) {
   if (line.options.rectangles.until_input && !draft.first_for_rectangles) draft.first_for_rectangles = "--until-input";
   if (draft.first_for_rectangles && line.options.seams != Seams::Rectangles)
     throw UsageError(std::string(draft.first_for_rectangles) + ": needs --seams rectangles");
+  if (line.options.align_axes && line.options.rotate == Rotate::None)
+    throw UsageError("--align-axes: cannot be combined with --rotate none");
   settle_gap(draft);
   return std::move(draft.line);
 }
@@ -307,6 +325,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_goal(app, draft.line.options);
   add_charts(app, draft.line);
   add_distortion(app, draft.line);
+  add_kept(app, draft.line);
   add_rectangles(app, draft);
   add_gap(app, draft);
   add_running(app, draft.line.options);

@@ -19,6 +19,8 @@ struct CommandLine {
   std::optional<std::filesystem::path> svg_folder;
   std::optional<std::filesystem::path> importance;
   std::string group_by = "none";  ///< none, material, object or tile
+  std::optional<std::filesystem::path> keep_shape;
+  std::optional<std::filesystem::path> locked;
   RefineOptions options;
   bool json = false;  ///< measure: JSON instead of a table
   std::string text;   ///< PrintText: the help or the version

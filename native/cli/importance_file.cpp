@@ -1,4 +1,4 @@
-// The file of --importance: one positive number for each face.
+// Files of one number for each face.
 #include "importance_file.h"
 
 #include <algorithm>
@@ -13,9 +13,8 @@ namespace {
 
 bool is_separator(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-}  // namespace
-
-std::vector<double> read_importance(const std::filesystem::path& path, int face_count) {
+/// `wrong` says in a few words why a number is not allowed, or nullptr.
+std::vector<double> read_numbers(const std::filesystem::path& path, int face_count, const char* (*wrong)(double)) {
   const std::string text = io::read_text(path, "a file of numbers");
   std::vector<double> values;
   int line = 1;
@@ -32,7 +31,7 @@ std::vector<double> read_importance(const std::filesystem::path& path, int face_
     const auto [stop, error] = std::from_chars(token.data(), token.data() + token.size(), value);
     if (error != std::errc() || stop != token.data() + token.size() || !std::isfinite(value))
       refuse(io::quoted(token) + " is not a number");
-    if (value <= 0) refuse("an importance must be positive, not " + io::quoted(token));
+    if (const char* must = wrong(value)) refuse(std::string(must) + ", not " + io::quoted(token));
     values.push_back(value);
     if (values.size() > static_cast<std::size_t>(face_count))
       refuse("more numbers than faces, there are " + std::to_string(face_count));
@@ -41,6 +40,18 @@ std::vector<double> read_importance(const std::filesystem::path& path, int face_
   if (values.size() < static_cast<std::size_t>(face_count))
     refuse("ends after " + std::to_string(values.size()) + " numbers, there are " + std::to_string(face_count) + " faces");
   return values;
+}
+
+}  // namespace
+
+std::vector<double> read_importance(const std::filesystem::path& path, int face_count) {
+  return read_numbers(path, face_count, [](double value) { return value > 0 ? nullptr : "an importance must be positive"; });
+}
+
+std::vector<char> read_flags(const std::filesystem::path& path, int face_count) {
+  const std::vector<double> numbers =
+      read_numbers(path, face_count, [](double value) { return value == 0 || value == 1 ? nullptr : "a flag must be 0 or 1"; });
+  return {numbers.begin(), numbers.end()};
 }
 
 }  // namespace atlas_refine::cli

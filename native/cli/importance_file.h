@@ -1,4 +1,4 @@
-// The file of --importance: one positive number for each face.
+// Files of one number for each face: those of --importance, --keep-shape and --locked.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,9 @@
 
 namespace atlas_refine::cli {
 
-/// Numbers separated by blanks or line ends, as many as there are faces. Throws io::InputError that names the line.
+/// Positive numbers separated by blanks or line ends, as many as there are faces. Throws io::InputError that names the line.
 std::vector<double> read_importance(const std::filesystem::path& path, int face_count);
+/// The same, with numbers that are 0 or 1.
+std::vector<char> read_flags(const std::filesystem::path& path, int face_count);
 
 }  // namespace atlas_refine::cli

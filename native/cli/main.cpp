@@ -160,6 +160,8 @@ int run_refine(CommandLine line) {
     Times times;
     auto start = std::chrono::steady_clock::now();
     for (const auto& input : line.inputs) files.add(input);
+    if (line.keep_shape) line.options.keep_shape = files.of_atlas(read_flags(*line.keep_shape, files.face_count()));
+    if (line.locked) line.options.locked = files.of_atlas(read_flags(*line.locked, files.face_count()));
     if (line.importance) line.options.importance = files.of_atlas(read_importance(*line.importance, files.face_count()));
     set_groups(line, files, line.options);
     times.read = seconds_since(start);

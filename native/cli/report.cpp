@@ -77,6 +77,12 @@ Json to_json(const CommandLine& line) {
           {"triangulate", o.triangulate},
           {"reference", o.reference == Reference::Input ? "input" : "surface"},
           {"importance", line.importance ? Json(line.importance->string()) : Json(nullptr)},
+          {"keep_shape", line.keep_shape ? Json(line.keep_shape->string()) : Json(nullptr)},
+          {"locked", line.locked ? Json(line.locked->string()) : Json(nullptr)},
+          {"rotate", o.rotate == Rotate::Any            ? "any"
+                     : o.rotate == Rotate::QuarterTurns ? "90"
+                                                        : "none"},
+          {"align_axes", o.align_axes},
           {"seed", o.seed},
           {"threads", o.threads},
           {"svg", line.svg_folder ? Json(line.svg_folder->string()) : Json(nullptr)}};

@@ -9,7 +9,9 @@
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "rectangles.h"
+#include "reduce/goal.h"
 #include "report/certify.h"
+#include "report/locked.h"
 #include "support/parallel.h"
 #include "whole.h"
 
@@ -21,12 +23,14 @@ bool within_limit(const RefineOptions& options, double distortion) {
 }
 
 /// The input is valid and at the bound; a gap counts only where one was asked for.
-bool holds_already(const InputAtlas& input, const RefineOptions& options) {
+bool holds_already(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options) {
   const Measures& before = input.measures;
   if (before.pe_fixed_aspect < options.pe_bound || !within_limit(options, before.distortion)) return false;
-  if (!validate_split(input.set).valid()) return false;
-  const Vec2 box = box_of_aspect(uv_box(input.set.charts), options.box_aspect).size();
-  return !options.gap || gap_between_charts(input.set.charts) >= options.gap->length(box);
+  if (!validate_split(input.set, freedom).valid()) return false;
+  const bool framed = any_fixed(freedom);
+  if (framed && !lies_in_texture(input.set.charts, freedom, options.box_aspect)) return false;
+  const Vec2 box = framed ? Vec2(options.box_aspect, 1) : box_of_aspect(uv_box(input.set.charts), options.box_aspect).size();
+  return !options.gap || gap_between_charts(input.set.charts, freedom) >= options.gap->length(box);
 }
 
 Outcome unchanged(const InputAtlas& input, const RefineOptions& options) {
@@ -52,6 +56,7 @@ struct CertifiedSolution {
 
 CertifiedSolution certified(const Refinement& run, Solution solution, const ProgressRange& range) {
   run.journal.begin_stage("certify", range.part(0.96, 0.98));
+  restore_shapes(run.input.set.charts, freedom_of(run.input.set, run.options), solution.atlas);
   CertifiedAtlas atlas = certify(run.input, solution.atlas, solution.gap, run.options);
   return {std::move(solution), std::move(atlas)};
 }
@@ -114,7 +119,8 @@ std::string shortfall(const InputAtlas& input, const RefineOptions& options, con
     return message_prefix(input.atlas) + "no atlas within " + limit + " was found; the least distorted one has " + figures;
   if (after.pe_fixed_aspect >= options.pe_bound) return "";
   return message_prefix(input.atlas) + "the bound " + number_text("%g", options.pe_bound) + " was not reached" +
-         (limit.empty() ? "" : " within " + limit) + "; the best found is " + figures;
+         (limit.empty() ? "" : " within " + limit) + "; the best found is " + figures +
+         words_on_kept(input.set.charts, freedom_of(input.set, options), options.box_aspect);
 }
 
 Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, CertifiedSolution certified) {
@@ -162,13 +168,24 @@ void warn_of_early_end(const Solution& solution, Journal& journal) {
   if (why) journal.warnings.push_back(std::string("the optimisation ") + why + ": the distortion may not be at its least");
 }
 
+/// There is nothing to move.
+Outcome all_locked(const InputAtlas& input, const RefineOptions& options, bool holds) {
+  Outcome out = unchanged(input, options);
+  out.bound_met = holds;
+  if (!holds && !(options.best_effort && within_limit(options, input.measures.distortion)))
+    throw RefineError(ErrorCode::BoundNotReached, "input", shortfall(input, options, input.measures));
+  return out;
+}
+
 }  // namespace
 
 Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const ProgressRange& range, Monitor& monitor,
                    Journal& journal) {
   note_mirrored(input, journal);
-  const bool holds = holds_already(input, options);
+  const Freedoms freedom = freedom_of(input.set, options);
+  const bool holds = holds_already(input, freedom, options);
   if (holds && !options.relax) return unchanged(input, options);
+  if (all_fixed(freedom)) return all_locked(input, options, holds);
 
   const Refinement run{input, options, monitor, journal, resolve_threads(options.threads)};
   CertifiedSolution result = solve(run, range);

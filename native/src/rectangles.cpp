@@ -1,6 +1,7 @@
 // The three steps of the paper, one after the other.
 #include "rectangles.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "align/align.h"
@@ -11,8 +12,10 @@
 #include "layout/trail_paths.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
+#include "pack/place_charts.h"
 #include "rectangle_pictures.h"
 #include "reduce/goal.h"
+#include "report/locked.h"
 #include "report/note_repairs.h"
 
 namespace atlas_refine {
@@ -56,19 +59,28 @@ RepairedCharts with_positive_triangles(const Refinement& run) {
 void make_valid(const Refinement& run, int c, std::vector<Chart>& charts, std::vector<int>& embedded) {
   RepairOptions options = repair_options(run);
   options.space_points = nullptr;
+  options.freedom.clear();
   const RepairedCharts repaired = repair_charts({charts[c]}, options, run.monitor);
   note_repairs(run, repaired);
   charts[c] = repaired.atlas.pieces.front().mesh;
   embedded.push_back(c);
 }
 
+/// Charts that only move are packed by their bounding box: turned so that it is small.
+void turn_kept(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts) {
+  const PlaceOptions options{.rotate = run.options.rotate, .align_axes = run.options.align_axes};
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    if (!bends(freedom, c)) charts[c] = place_charts({charts[c]}, options, run.monitor).front();
+  }
+}
+
 /// Axis-aligned charts at their wanted densities. Those that are left as they are lie in the layout as they are: they must not
 /// overlap themselves.
-AlignedCharts align(const Refinement& run, std::vector<Chart>& charts, std::vector<int>& embedded) {
-  const AlignOptions options{run.options.rectangles.sigma, run.threads};
+AlignedCharts align(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts, std::vector<int>& embedded) {
+  const AlignOptions options{run.options.rectangles.sigma, run.threads, freedom};
   AlignedCharts aligned = align_charts(charts, options, run.monitor);
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
-    if (aligned[c].way != AxisAlignedChart::Way::AsItIs || certify_charts({charts[c]}).valid()) continue;
+    if (aligned[c].way != AxisAlignedChart::Way::AsItIs || !bends(freedom, c) || certify_charts({charts[c]}).valid()) continue;
     make_valid(run, c, charts, embedded);
     set_density(charts, wanted_density(run.input.set.charts, run.options.density), run.options.density);
     aligned[c] = std::move(align_charts({charts[c]}, options, run.monitor).front());
@@ -92,13 +104,14 @@ RectangleReport report_of(const AlignedCharts& aligned, const Layout& layout) {
 }
 
 /// What is told of the cuts; only once they are the result.
-void tell(const Refinement& run, const AlignedCharts& aligned, const Layout& layout, const RectangleReport& report) {
+void tell(const Refinement& run, const Freedoms& freedom, const AlignedCharts& aligned, const Layout& layout,
+          const RectangleReport& report) {
   std::vector<int> opened, saved, boxed;
   for (int c = 0; c < static_cast<int>(aligned.size()); ++c) {
     const int number = run.input.set.charts[c].number;
     if (aligned[c].holes_cut > 0) opened.push_back(number);
     if (aligned[c].way == AxisAlignedChart::Way::Rectangle) saved.push_back(number);
-    if (aligned[c].way == AxisAlignedChart::Way::AsItIs) boxed.push_back(number);
+    if (aligned[c].way == AxisAlignedChart::Way::AsItIs && bends(freedom, c)) boxed.push_back(number);
   }
   Journal& journal = run.journal;
   if (!opened.empty())
@@ -165,6 +178,11 @@ double energy_of_input(const Refinement& run, const CutAtlas& repaired, const st
 /// Moves the pieces to less distortion under the bound.
 ReduceResult reduce(const Refinement& run, const Gap& gap, double least_change, double enough, CutAtlas& cut) {
   const std::vector<Chart> pieces = meshes_of(cut);
+  const Freedoms of_charts = freedom_of(run.input.set, run.options);
+  Freedoms freedom;
+  for (const Piece& piece : cut.pieces) {
+    if (!of_charts.empty()) freedom.push_back(of_charts[piece.chart]);
+  }
   const ReduceProblem problem{.charts = pieces,
                               .objective = goal_of(run.input.set.charts, cut, run.options),
                               .gap = gap,
@@ -174,7 +192,8 @@ ReduceResult reduce(const Refinement& run, const Gap& gap, double least_change, 
                               .least_change = 0,
                               .negligible = least_change,
                               .max_distortion = run.options.max_distortion.value_or(0),
-                              .threads = run.threads};
+                              .threads = run.threads,
+                              .freedom = freedom};
   ReduceResult reduced = reduce_distortion(
       problem, [&](const ReduceProgress& progress) { run.monitor.report(1 - 1 / (1 + 0.1 * progress.iteration), progress.pe); });
   run.journal.iterations += reduced.iterations;
@@ -183,10 +202,20 @@ ReduceResult reduce(const Refinement& run, const Gap& gap, double least_change, 
 }
 
 /// Takes out the vertices that only served the deformation.
-void restore(const std::vector<Chart>& charts, CutAtlas& cut) {
+void restore(const std::vector<Chart>& charts, const Freedoms& freedom, CutAtlas& cut) {
   const double scale = dirichlet_sums(meshes_of(cut)).best_scale();
   const std::vector<bool> border_points = points_on_borders(cut);
-  for (Piece& piece : cut.pieces) restore_faces(piece, charts[piece.chart], scale, border_points);
+  for (Piece& piece : cut.pieces) {
+    if (bends(freedom, piece.chart)) restore_faces(piece, charts[piece.chart], scale, border_points);
+  }
+}
+
+/// Why this road is not taken with charts that are not to be touched; empty where it is.
+std::string obstacle(const Refinement& run, const Freedoms& freedom) {
+  if (any_fixed(freedom)) return "some are locked, and rectangles cannot be packed around them";
+  const bool kept = std::find(freedom.begin(), freedom.end(), Freedom::Moves) != freedom.end();
+  if (kept && run.options.rotate == Rotate::None) return "some keep their shapes, and must not be turned";
+  return "";
 }
 
 }  // namespace
@@ -194,6 +223,8 @@ void restore(const std::vector<Chart>& charts, CutAtlas& cut) {
 Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) {
   const RefineOptions& options = run.options;
   Journal& journal = run.journal;
+  const Freedoms freedom = freedom_of(run.input.set, options);
+  if (std::string why = obstacle(run, freedom); !why.empty()) return {.failure = std::move(why)};
   Solution out{.intervention = Intervention::Cut};
   journal.begin_stage("repair", range.part(0, 0.03));
   const RepairedCharts repaired = with_positive_triangles(run);
@@ -203,7 +234,8 @@ Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) 
   const double enough = options.rectangles.until_input ? energy_of_input(run, repaired.atlas, charts) : 0;
 
   journal.begin_stage("align", range.part(0.03, 0.35));  // section 3.1
-  AlignedCharts aligned = align(run, charts, out.re_embedded);
+  turn_kept(run, freedom, charts);
+  AlignedCharts aligned = align(run, freedom, charts, out.re_embedded);
   refer_to_input(repaired.atlas, aligned);
   const std::vector<Chart> sources = charts_before_opening(run, repaired.atlas, charts);
 
@@ -224,7 +256,7 @@ Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) 
   wide.value *= kFirstGap;
   ReduceResult reduced = reduce(run, wide, kFirstChange, enough, out.atlas);
   if (reduced.reached && reduced.within_limit) {
-    restore(sources, out.atlas);
+    restore(sources, freedom, out.atlas);
     reduced = reduce(run, layout.gap, kLastChange, enough, out.atlas);
   }
   if (!reduced.within_limit) return {.failure = "cut, their distortion stays above the largest allowed"};
@@ -233,7 +265,7 @@ Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) 
   out.ended = ended_of(reduced.status);
   out.price = reduced.price;
   out.rectangles = report_of(aligned, layout);
-  tell(run, aligned, layout, *out.rectangles);
+  tell(run, freedom, aligned, layout, *out.rectangles);
   return {.solution = std::move(out)};
 }
 

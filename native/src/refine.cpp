@@ -10,6 +10,7 @@
 #include "input/take_part.h"
 #include "one_atlas.h"
 #include "report/assemble.h"
+#include "report/locked.h"
 #include "report/note_repairs.h"
 #include "report/options.h"
 #include "report/outcome.h"
@@ -33,6 +34,7 @@ std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOpti
   while (!part.charts.empty()) {
     InputAtlas input = part_of(whole, part.charts, options.box_aspect);
     input.origin = origin_of(part, options);
+    put_in_texture(input, options);
     try {
       return refine_one(input, options, range, monitor, journal);
     } catch (const UnmendedCharts& unmended) {
@@ -90,7 +92,8 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   const InputAtlas whole = read_atlas(atlas, options.box_aspect);
   Participants participants = take_part(whole.set, options, has_uvs);
   journal.show("input", charts_as_placed(whole.set));
-  std::vector<Done> done = refine_parts(whole, participants, options, monitor, journal);
+  std::vector<Done> done =
+      refine_parts(whole, participants, with_kept_leaders(whole.set, participants.followers, options), monitor, journal);
   RefineResult result;
   summarise(whole, participants, options, done, result);
   tell_of(participants, done, journal);
@@ -101,6 +104,7 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   result.added_seams = assembled.cut_edges + parted;
   result.corner_uvs = std::move(assembled.mesh.corner_uvs);
   result.cut = std::move(assembled.cut);
+  restore_locked_corners(whole, options, result);
   return result;
 }
 
@@ -117,12 +121,20 @@ RefineResult refine_usable(const Atlas& atlas, const RefineOptions& options, Mon
   return result;
 }
 
+/// Where some chart is locked the box is the texture, which is square unless said otherwise.
+RefineOptions with_texture(RefineOptions options) {
+  const bool locked = std::any_of(options.locked.begin(), options.locked.end(), [](char flag) { return flag != 0; });
+  if (locked && options.box_aspect == 0) options.box_aspect = 1;
+  return options;
+}
+
 }  // namespace
 
 const char* version() { return ATLAS_REFINE_VERSION; }
 
-RefineResult refine(const Atlas& atlas, const RefineOptions& options, const ProgressFn& progress, DebugSink* debug) {
-  check_options(atlas, options);
+RefineResult refine(const Atlas& atlas, const RefineOptions& asked, const ProgressFn& progress, DebugSink* debug) {
+  check_options(atlas, asked);
+  const RefineOptions options = with_texture(asked);
   RefineResult result;
   run_monitored(progress, [&](Monitor& monitor) {
     Journal journal(monitor, debug, options.box_aspect);

@@ -117,7 +117,7 @@ TEST_F(Files, FacesAreCountedInTheirFileWithThoseLeftOut) {
   collection.add(write("b.obj", model + "f 2/1 1/1 3/1\n"));
   EXPECT_EQ(collection.atlas().face_count(), 3);
   EXPECT_EQ(collection.face_count(), 5);
-  EXPECT_EQ(collection.of_atlas({1, 2, 3, 4, 5}), (std::vector<double>{2, 4, 5}));
+  EXPECT_EQ(collection.of_atlas(std::vector<double>{1, 2, 3, 4, 5}), (std::vector<double>{2, 4, 5}));
   EXPECT_EQ(collection.notes()[1], (folder_ / "b.obj").string() + ": 1 face has corners without UVs and is left out (line 5)");
   EXPECT_EQ(collection.place_of_face(2), (folder_ / "b.obj").string() + ": line 7");
   EXPECT_EQ(collection.number_in_file(-1), -1);

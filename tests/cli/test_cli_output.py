@@ -177,6 +177,17 @@ def test_importance_is_read(program, tmp_path, seams):
     assert results["without"] == results["ones"] != results["half"]
 
 
+def test_kept_and_locked_charts_are_read(program, tmp_path):
+    """What is kept does not bend, what is locked does not move: alone in the file either says why the bound is missed."""
+    flags = tmp_path / "flags.txt"
+    flags.write_text("1\n" + "0\n" * 143)
+    source, target = tmp_path / "in.obj", tmp_path / "out.obj"
+    source.write_text(arc(12))
+    for option, word in {"--keep-shape": "kept in its shape", "--locked": "the chart is locked"}.items():
+        assert word in program.refused(4, source, "-o", target, "--pe-bound", "0.95", option, flags)
+    assert program(source, "-o", target, "--pe-bound", "0.95").returncode == 0
+
+
 def test_reference_is_read(program, tmp_path):
     text = arc(12).replace("vt 0.5 0.0", "vt 0.45 -0.02")
     surface, _ = refine(program, tmp_path, text, "--pe-bound", "0.9")

@@ -252,6 +252,24 @@ def test_importance_that_cannot_be_used(program, good, tmp_path_factory, old_out
     assert message == f"atlas-refine: {path}: {BAD_IMPORTANCE[text]}"
 
 
+@pytest.mark.parametrize("option", ["--keep-shape", "--locked"])
+def test_flags_that_cannot_be_used(program, good, tmp_path_factory, old_output, option):
+    folder = tmp_path_factory.mktemp("flags")
+    path = folder / "flags.txt"
+    for text, message in {
+        "1 0.5": "line 1: a flag must be 0 or 1, not '0.5'",
+        "1\n0\n": "line 3: ends after 2 numbers, there are 16 faces",
+    }.items():
+        path.write_text(text)
+        assert program.refused(3, good, "-o", old_output, option, path) == f"atlas-refine: {path}: {message}"
+    assert "does not exist" in program.refused(3, good, "-o", old_output, option, folder / "nothing")
+
+
+def test_no_turns_and_aligned_axes_exclude_each_other(program, good, old_output):
+    assert "--align-axes" in program.refused(2, good, "-o", old_output, "--rotate", "none", "--align-axes")
+    assert "--rotate" in program.refused(2, good, "-o", old_output, "--rotate", "45")
+
+
 def test_importance_that_is_not_there(program, tmp_path, good, old_output):
     missing = program.refused(3, good, "-o", old_output, "--importance", tmp_path / "nothing")
     assert missing == f"atlas-refine: {tmp_path / 'nothing'}: does not exist"

@@ -171,6 +171,29 @@ TEST(Certificate, ManyStackedChartsEnd) {
   EXPECT_EQ(validate(shapes::combine(stack)).crossings, 10000);
 }
 
+TEST(Certificate, FixedChartsMayOverlapEachOtherButNobodyElse) {
+  // Two squares on each other, and a third beside, across or within them.
+  const auto squares = [](double x, double size) {
+    const auto square = [](double side, const Vec2& at) {
+      return shapes::mesh(shapes::transformed(shapes::rectangle(1, 1), side, 0, at), 0.3);
+    };
+    return split_charts(shapes::combine({square(1, {0, 0}), square(1, {0.5, 0.2}), square(size, {x, 0.3})})).charts;
+  };
+  const Freedoms two = {Freedom::Fixed, Freedom::Fixed, Freedom::Moves};
+  const std::vector<Chart> beside = squares(2, 1), across = squares(1.2, 1), in_one = squares(0.1, 0.2),
+                           in_both = squares(0.7, 0.2);
+  EXPECT_TRUE(certify_charts(beside, two).valid());
+  EXPECT_FALSE(certify_charts(beside).valid());
+  EXPECT_FALSE(certify_charts(beside, {Freedom::Fixed, Freedom::Bends, Freedom::Bends}).valid());
+  EXPECT_FALSE(certify_charts(across, two).valid());
+  EXPECT_FALSE(certify_charts(in_one, two).valid());
+  EXPECT_FALSE(certify_charts(in_both, two).valid());
+  EXPECT_TRUE(certify_charts(in_one, {Freedom::Fixed, Freedom::Fixed, Freedom::Fixed}).valid());
+  EXPECT_NEAR(gap_between_charts(beside, two), 0.5, 1e-12);
+  EXPECT_EQ(gap_between_charts(beside), 0);
+  EXPECT_EQ(gap_between_charts(across, two), 0);
+}
+
 TEST(Gaps, BetweenTwoSquares) {
   EXPECT_NEAR(gap_between_charts(placed(shapes::two_squares(0.125))), 0.125, 1e-12);
   EXPECT_EQ(gap_between_charts(placed(shapes::touching_charts())), 0);

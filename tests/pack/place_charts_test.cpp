@@ -44,11 +44,13 @@ TEST_P(PlaceCharts, MovesRigidlyAndKeepsTheGap) {
   EXPECT_GE(gap_between_charts(placed), GetParam().gap.length(box_sides(placed, GetParam().box_aspect)));
 }
 
-INSTANTIATE_TEST_SUITE_P(GapsAndBoxes, PlaceCharts,
-                         ::testing::Values(PlaceOptions{.target_pe = 0.5}, PlaceOptions{.gap = {0.02}, .target_pe = 0.5},
-                                           PlaceOptions{.box_aspect = 1, .target_pe = 0.5},
-                                           PlaceOptions{
-                                               .gap = {8.0 / 1024, Gap::Unit::LongSide}, .box_aspect = 3, .target_pe = 0.45}));
+INSTANTIATE_TEST_SUITE_P(
+    GapsAndBoxes, PlaceCharts,
+    ::testing::Values(PlaceOptions{.target_pe = 0.5}, PlaceOptions{.gap = {0.02}, .target_pe = 0.5},
+                      PlaceOptions{.box_aspect = 1, .target_pe = 0.5},
+                      PlaceOptions{.target_pe = 0.9, .rotate = Rotate::QuarterTurns},
+                      PlaceOptions{.target_pe = 0.9, .rotate = Rotate::None}, PlaceOptions{.target_pe = 0.9, .align_axes = true},
+                      PlaceOptions{.gap = {8.0 / 1024, Gap::Unit::LongSide}, .box_aspect = 3, .target_pe = 0.45}));
 
 TEST(PlaceCharts, TheBitsDoNotDependOnTheThreads) {
   const std::vector<Chart> charts = several();
@@ -64,6 +66,32 @@ TEST(PlaceCharts, OneChartFindsItsSmallestBox) {
   const std::vector<Chart> placed = place_charts(charts, {.target_pe = 0.99}, monitor);
   EXPECT_LT(testing::packing_efficiency(charts), 0.7);
   EXPECT_GT(testing::packing_efficiency(placed), 0.999);
+}
+
+TEST(PlaceCharts, ChartsTurnAsTheyMay) {
+  const std::vector<Chart> charts = several();
+  Monitor monitor;
+  for (const Rotate rotate : {Rotate::QuarterTurns, Rotate::None}) {
+    const std::vector<Chart> placed = place_charts(charts, {.target_pe = 0.9, .rotate = rotate}, monitor);
+    for (std::size_t c = 0; c < charts.size(); ++c) {
+      const Vec2 turned = placed[c].uvs[1] - placed[c].uvs[0], before = charts[c].uvs[1] - charts[c].uvs[0];
+      const double along = turned.dot(before) / before.squaredNorm();
+      EXPECT_NEAR(along, rotate == Rotate::None ? 1 : std::round(along), 1e-9);
+    }
+  }
+}
+
+TEST(PlaceCharts, OneChartTurnsAsItMay) {
+  const std::vector<Chart> wide = charts_of(shapes::mesh(shapes::rectangle(1, 0.4), 0.1));
+  const std::vector<Chart> tilted = charts_of(shapes::mesh(shapes::transformed(shapes::rectangle(1, 0.4), 1, 0.3, {0, 0}), 0.1));
+  Monitor monitor;
+  const auto sides = [&](const std::vector<Chart>& charts, const PlaceOptions& options) {
+    return box_sides(place_charts(charts, options, monitor));
+  };
+  EXPECT_LT(sides(wide, {.box_aspect = 0.5, .rotate = Rotate::QuarterTurns}).x(), 0.41);
+  EXPECT_GT(sides(wide, {.box_aspect = 0.5, .rotate = Rotate::None}).x(), 0.99);
+  EXPECT_NEAR(sides(tilted, {.rotate = Rotate::None}).x(), box_sides(tilted).x(), 1e-12);
+  EXPECT_NEAR(sides(tilted, {.align_axes = true}).maxCoeff(), 1, 1e-12);
 }
 
 TEST(PlaceCharts, CanBeCancelled) {

@@ -17,9 +17,9 @@ TEST(Squeeze, KeepsTheBetterOfTwoStarts) {
   Monitor monitor;
   const SqueezeOptions options{.pe_bound = 0.85, .gaps = {Gap{}}};
   const Objective objective = make_objective(upright);
-  const double one = squeeze({upright}, objective, options, monitor).outcome.energy,
-               other = squeeze({tilted}, objective, options, monitor).outcome.energy;
-  const Squeezed both = squeeze({tilted, upright}, objective, options, monitor);
+  const double one = squeeze({{upright}}, objective, options, monitor).outcome.energy,
+               other = squeeze({{tilted}}, objective, options, monitor).outcome.energy;
+  const Squeezed both = squeeze({{tilted}, {upright}}, objective, options, monitor);
   EXPECT_EQ(both.outcome.energy, std::min(one, other));
   EXPECT_TRUE(both.outcome.reached);
 }
@@ -28,21 +28,21 @@ TEST(Squeeze, ReducesTheGapOnlyAsFarAsNeeded) {
   const std::vector<Chart> charts = charts_of(shapes::squares(16, 0.4));
   Monitor monitor;
   SqueezeOptions options{.pe_bound = 0.85, .gaps = {Gap{0.03}, Gap{0.01}, Gap{0.001}}};
-  const Squeezed squeezed = squeeze({charts}, make_objective(charts), options, monitor);
+  const Squeezed squeezed = squeeze({{charts}}, make_objective(charts), options, monitor);
   EXPECT_TRUE(squeezed.outcome.reached);
   EXPECT_EQ(squeezed.gap.value, 0.01);
   EXPECT_FALSE(squeezed.gap_note.empty());
   const std::vector<Chart> after = testing::with_uvs(charts, squeezed.outcome.uvs);
   EXPECT_GE(gap_between_charts(after), squeezed.gap.length(testing::box_sides(after)) * (1 - 1e-9));
   options.pe_bound = 0.6;
-  EXPECT_EQ(squeeze({charts}, make_objective(charts), options, monitor).gap.value, 0.03);
+  EXPECT_EQ(squeeze({{charts}}, make_objective(charts), options, monitor).gap.value, 0.03);
 }
 
 TEST(Squeeze, TheBitsDoNotDependOnTheThreads) {
   const std::vector<Chart> charts = charts_of(shapes::disk_in_ring());
   const auto run = [&](int threads) {
     Monitor monitor;
-    return squeeze({charts, charts}, make_objective(charts), {.pe_bound = 0.8, .gaps = {Gap{}}, .threads = threads}, monitor);
+    return squeeze({{charts}, {charts}}, make_objective(charts), {.pe_bound = 0.8, .gaps = {Gap{}}, .threads = threads}, monitor);
   };
   const Squeezed one = run(1), two = run(2);
   for (std::size_t c = 0; c < charts.size(); ++c) EXPECT_TRUE(testing::same_bits(one.outcome.uvs[c], two.outcome.uvs[c]));

@@ -210,15 +210,14 @@ std::optional<AlignedDisk> rectangle(const Chart& chart, double sigma) {
   return AlignedDisk{AxisAlignedChart::Way::Rectangle, boundary.vertices, quarter_turns, std::move(*uvs)};
 }
 
-/// At its own scale, turned so that its bounding box is small.
-AxisAlignedChart as_it_is(const Chart& source) {
+/// At its own scale, in the best of so many turns of less than a quarter.
+AxisAlignedChart as_it_is(const Chart& source, int turns) {
   AxisAlignedChart out{.way = AxisAlignedChart::Way::AsItIs, .mesh = SplitMesh(source), .boundary = {}, .quarter_turns = {}};
   const double scale = dirichlet_sums(source).best_scale();
   double best = std::numeric_limits<double>::infinity();
-  constexpr int kTurns = 45;
-  for (int k = 0; k < kTurns; ++k) {
+  for (int k = 0; k < turns; ++k) {
     Chart turned = source;
-    rotate(turned, 0.5 * std::numbers::pi * k / kTurns);
+    rotate(turned, 0.5 * std::numbers::pi * k / turns);
     if (uv_box({turned}).area() >= best) continue;
     best = uv_box({turned}).area();
     out.mesh.uvs = turned.uvs;
@@ -249,12 +248,13 @@ std::optional<AlignedDisk> aligned_disk(const Chart& chart, double sigma, Monito
 }
 
 AxisAlignedChart align(const Chart& source, double sigma, Monitor& monitor) {
-  if (source.triangles.size() < kLeastTriangles) return as_it_is(source);
+  constexpr int kTurns = 45;
+  if (source.triangles.size() < kLeastTriangles) return as_it_is(source, kTurns);
   PreparedChart prepared = prepare_chart(source);
-  if (!prepared.opening.is_disk) return as_it_is(source);
+  if (!prepared.opening.is_disk) return as_it_is(source, kTurns);
   const Chart chart = prepared.mesh.to_chart(source);
   std::optional<AlignedDisk> disk = aligned_disk(chart, sigma, monitor);
-  if (!disk) return as_it_is(source);
+  if (!disk) return as_it_is(source, kTurns);
   prepared.mesh.uvs = std::move(disk->uvs);
   return {.way = disk->way,
           .mesh = std::move(prepared.mesh),
@@ -270,7 +270,7 @@ std::vector<AxisAlignedChart> align_charts(const std::vector<Chart>& charts, con
   std::atomic<int> done = 0;
   parallel_ranges(static_cast<int>(charts.size()), options.threads, 1, [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
-      slots[c] = align(charts[c], options.sigma, monitor);
+      slots[c] = bends(options.freedom, c) ? align(charts[c], options.sigma, monitor) : as_it_is(charts[c], 1);
       monitor.report(static_cast<double>(++done) / static_cast<double>(charts.size()));
     }
   });

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/axis_aligned_chart.h"
+#include "geometry/freedom.h"
 #include "support/monitor.h"
 
 namespace atlas_refine {
@@ -11,6 +12,7 @@ namespace atlas_refine {
 struct AlignOptions {
   double sigma = 0.004;  ///< eq. (3), as a fraction of the boundary's length
   int threads = 1;
+  Freedoms freedom = {};  ///< charts that do not bend come back as they are
 };
 
 /// Aligns every chart. Charts must be free of flips; they may overlap themselves.

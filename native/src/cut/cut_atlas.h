@@ -34,7 +34,8 @@ struct Seam {
 struct CutAtlas {
   std::vector<Piece> pieces;
   std::vector<SurfacePoint> points;
-  std::vector<Seam> seams;  ///< each once
+  std::vector<Seam> seams;    ///< each once
+  Vec2 frame = Vec2::Zero();  ///< PlacedCharts::frame: what the unit square of the texture is to be; zero: the pieces' own box
 };
 
 /// A path along edges of one piece, to be cut along.

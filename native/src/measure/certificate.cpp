@@ -39,8 +39,9 @@ void note(Validity& validity, const std::string& problem, int chart, int face = 
   validity.face = face;
 }
 
-void check_triangles(const std::vector<Chart>& charts, Validity& validity) {
+void check_triangles(const std::vector<Chart>& charts, const Freedoms& freedom, Validity& validity) {
   for (std::size_t k = 0; k < charts.size(); ++k) {
+    if (is_fixed(freedom, k)) continue;
     const Chart& chart = charts[k];
     int last_face = -1;
     for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
@@ -62,7 +63,12 @@ struct Borders {
   const std::vector<BoundaryEdge> edges;
   const BoxTree tree;
   const std::vector<std::vector<int>>& points;
+  const Freedoms& freedom;
 
+  /// Fixed charts may be on each other.
+  bool both_fixed(const BoundaryEdge& a, const BoundaryEdge& b) const {
+    return is_fixed(freedom, a.chart) && is_fixed(freedom, b.chart);
+  }
   /// Whether two vertices of a chart are one point, of the surface and of the plane.
   bool pinched(int chart, int v, const Vec2& at_v, int w, const Vec2& at_w) const {
     return at_v == at_w && !points.empty() && points[chart][v] == points[chart][w];
@@ -131,7 +137,7 @@ void check_crossings(const std::vector<Chart>& charts, const Borders& borders, V
   const std::vector<BoundaryEdge>& edges = borders.edges;
   for (int i = 0; i < static_cast<int>(edges.size()) && validity.crossings < kMostCrossings; ++i) {
     borders.tree.visit_within(edges[i].box(), kTouching, -1, [&](int j) {
-      if (j <= i || !touch_or_cross(borders, i, j)) return true;
+      if (j <= i || borders.both_fixed(edges[i], edges[j]) || !touch_or_cross(borders, i, j)) return true;
       ++validity.crossings;
       const int a = name_of(charts, edges[i].chart), b = name_of(charts, edges[j].chart);
       note(validity,
@@ -145,8 +151,8 @@ void check_crossings(const std::vector<Chart>& charts, const Borders& borders, V
   }
 }
 
-/// How often the boundaries, but for the loop of `own`, wind around a point of it just behind its start: where the boundaries
-/// do not cross, it lies on none of them, though its start may (a pinch).
+/// How often the boundaries, but for the loop of `own` and, where its chart is fixed, all fixed ones, wind around a point of it
+/// just behind its start: where the boundaries do not cross, it lies on none of them, though its start may (a pinch).
 int winding_of_others(const Borders& borders, const BoundaryEdge& own, int* chart_around) {
   const Vec2 &p = own.from, &ahead = own.to;
   const Box ray{p, {std::numeric_limits<double>::max(), p.y()}};
@@ -154,7 +160,8 @@ int winding_of_others(const Borders& borders, const BoundaryEdge& own, int* char
   int winding = 0;
   borders.tree.visit_within(ray, kTouching, -1, [&](int i) {
     const BoundaryEdge& edge = borders.edges[i];
-    if ((edge.chart == own.chart && edge.loop == own.loop) || below(edge.from) == below(edge.to)) return true;
+    const bool skipped = (edge.chart == own.chart && edge.loop == own.loop) || borders.both_fixed(edge, own);
+    if (skipped || below(edge.from) == below(edge.to)) return true;
     const int up = below(edge.from) ? 1 : -1;
     int side = orientation(edge.from, edge.to, p);
     if (side == 0) side = orientation(edge.from, edge.to, ahead);
@@ -189,7 +196,8 @@ void check_windings(const std::vector<Chart>& charts, const Borders& borders, Va
     while (end < count && edges[end].chart == edges[first].chart && edges[end].loop == edges[first].loop) ++end;
     int around = edges[first].chart;
     const int winding = winding_of_others(borders, edges[first], &around);
-    if (winding == (counterclockwise(edges, first, end) ? 0 : 1)) continue;
+    const bool alone = is_fixed(borders.freedom, edges[first].chart) || counterclockwise(edges, first, end);
+    if (winding == (alone ? 0 : 1)) continue;
     const int chart = name_of(charts, edges[first].chart);
     note(validity,
          around == edges[first].chart
@@ -201,12 +209,12 @@ void check_windings(const std::vector<Chart>& charts, const Borders& borders, Va
 
 }  // namespace
 
-Validity certify_charts(const std::vector<Chart>& charts, const std::vector<std::vector<int>>& points) {
+Validity certify_charts(const std::vector<Chart>& charts, const std::vector<std::vector<int>>& points, const Freedoms& freedom) {
   Validity validity;
-  check_triangles(charts, validity);
+  check_triangles(charts, freedom, validity);
   std::vector<BoundaryEdge> edges = boundary_edges(charts);
   BoxTree tree = tree_over(edges);
-  const Borders borders{std::move(edges), std::move(tree), points};
+  const Borders borders{std::move(edges), std::move(tree), points, freedom};
   check_crossings(charts, borders, validity);
   if (validity.valid()) check_windings(charts, borders, validity);
   return validity;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "atlas_refine/measures.h"
-#include "geometry/chart.h"
+#include "geometry/freedom.h"
 
 namespace atlas_refine {
 
@@ -18,10 +18,13 @@ inline constexpr double kFarArc = 10 * 0.0025;
 /// stay apart; without, that is a contact. Also finds charts that lie wholly inside another chart's interior, and
 /// charts that overlap themselves without crossing boundaries. Counting of crossings stops at 10000.
 /// `chart` and `face` of the answer are Chart::number, or the index in `charts` where that is -1, and of Chart::triangle_faces.
-Validity certify_charts(const std::vector<Chart>& charts, const std::vector<std::vector<int>>& points = {});
+/// Fixed charts may be as they like, and on each other: only what others do to them is looked at.
+Validity certify_charts(const std::vector<Chart>& charts, const std::vector<std::vector<int>>& points = {},
+                        const Freedoms& freedom = {});
 
-/// Smallest distance between boundaries of two different charts, absolute; infinity with fewer than two charts.
-double gap_between_charts(const std::vector<Chart>& charts);
+/// Smallest distance between boundaries of two different charts that are not both fixed, absolute; infinity with fewer than two
+/// charts.
+double gap_between_charts(const std::vector<Chart>& charts, const Freedoms& freedom = {});
 
 /// For each chart the smallest distance, absolute, between a boundary vertex and a boundary edge of the same loop that face
 /// each other through the outside and between which the boundary, measured on the surface, is at least `far_arc` long. Sought up

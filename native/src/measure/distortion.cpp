@@ -110,6 +110,17 @@ double uv_area(const std::vector<Chart>& charts) {
   return area;
 }
 
+double uv_perimeter(const std::vector<Chart>& charts) {
+  double perimeter = 0;
+  for (const Chart& chart : charts) {
+    for (const auto& loop : chart.boundary_loops) {
+      for (std::size_t k = 0; k < loop.size(); ++k)
+        perimeter += (chart.uvs[loop[(k + 1) % loop.size()]] - chart.uvs[loop[k]]).norm();
+    }
+  }
+  return perimeter;
+}
+
 Box uv_box(const std::vector<Chart>& charts) {
   Box box;
   bool first = true;

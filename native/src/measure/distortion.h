@@ -33,6 +33,8 @@ std::vector<double> triangle_stretch(const Chart& chart, double scale);
 /// Sum of UV triangle areas.
 double uv_area(const Chart& chart);
 double uv_area(const std::vector<Chart>& charts);
+/// Sum of the lengths of all boundary edges.
+double uv_perimeter(const std::vector<Chart>& charts);
 
 Box uv_box(const std::vector<Chart>& charts);
 Box box_of_points(const std::vector<Vec2>& points);

@@ -67,8 +67,13 @@ double gap_within_loop(const PlacedBoundary& placed, int first, int end, double 
 
 }  // namespace
 
-double gap_between_charts(const std::vector<Chart>& charts) {
-  const std::vector<BoundaryEdge> edges = boundary_edges(charts);
+double gap_between_charts(const std::vector<Chart>& charts, const Freedoms& freedom) {
+  std::vector<BoundaryEdge> edges = boundary_edges(charts);
+  const auto first_fixed = std::find(freedom.begin(), freedom.end(), Freedom::Fixed);
+  for (BoundaryEdge& edge : edges) {
+    // All fixed charts count as one.
+    if (is_fixed(freedom, edge.chart)) edge.chart = static_cast<int>(first_fixed - freedom.begin());
+  }
   const BoxTree tree = tree_over(edges);
   double best = kInfinity;
   for (const BoundaryEdge& edge : edges) {

@@ -21,6 +21,7 @@ struct Edge {
 
 /// The charts where they lie now.
 struct Scene {
+  std::vector<char> turnable;    ///< charts that may get any rotation
   std::vector<int> first_edges;  ///< of each chart in edges, and their end
   std::vector<Edge> edges;       ///< all charts' boundary edges; `a` runs through all vertices
   std::vector<Vec2> centres;     ///< of each chart's bounding box
@@ -44,6 +45,7 @@ Scene make_scene(const std::vector<Outline>& outlines, const std::vector<Placeme
         box = united(box, {a, a});
       }
     }
+    scene.turnable.push_back(outlines[c].rotate == Rotate::Any);
     scene.boxes.push_back(box);
     scene.centres.push_back(0.5 * (box.min + box.max));
     double radius = 0;
@@ -134,7 +136,7 @@ class Program {
     Eigen::VectorXd cost = Eigen::VectorXd::Zero(count), reach = Eigen::VectorXd::Constant(count, step_);
     cost[3 * n_] = 1 / size_.x();
     if (!fixed) cost[3 * n_ + 1] = 1 / size_.y();
-    for (int c = 0; c < n_; ++c) reach[3 * c + 2] = turning_ ? 0.5 * step_ : 1e-9 * step_;
+    for (int c = 0; c < n_; ++c) reach[3 * c + 2] = turning_ && scene_.turnable[c] ? 0.5 * step_ : 1e-9 * step_;
     return solve_linear_program(cost, inequalities_, reach, options_.poll);
   }
 
@@ -236,6 +238,10 @@ std::vector<Placement> moved(const std::vector<Placement>& placements, const Sce
                              bool turning) {
   std::vector<Placement> result = placements;
   for (size_t c = 0; c < placements.size(); ++c) {
+    if (!scene.turnable[c]) {
+      result[c].offset += Vec2(motion[3 * c], motion[3 * c + 1]);
+      continue;
+    }
     const double angle = turning ? motion[3 * c + 2] / scene.radii[c] : 0;
     const double cosine = std::cos(angle), sine = std::sin(angle);
     const Placement& old = placements[c];

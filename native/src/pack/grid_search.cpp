@@ -63,11 +63,8 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       watch.poll(static_cast<double>(i - begin) / (end - begin));
-      for (Turn turn : small_box_turns(convex_hull(outlines[i]), n > kManyCharts ? 1 : 2)) {
-        for (int quarter = 0; quarter < 4; ++quarter, turn = turn.quarter_turned()) {
-          grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options.gap, grid.cell));
-        }
-      }
+      for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : 2))
+        grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options.gap, grid.cell));
     }
   });
   return grid;
@@ -84,7 +81,8 @@ GreedyRule random_rule(const Grid& grid, double aspect, Rng rng) {
   for (int i = 0; i < n; ++i) {
     const Raster& first = grid.charts[i].rasters[0];
     size[i] = static_cast<double>(first.width) * first.height * std::exp(noise * rng.uniform(-1, 1));
-    widest = std::max(widest, std::min(first.width, first.height));
+    const bool turns = grid.charts[i].rasters.size() > 1;
+    widest = std::max(widest, turns ? std::min(first.width, first.height) : first.width);
   }
   rule.order.resize(n);
   std::iota(rule.order.begin(), rule.order.end(), 0);

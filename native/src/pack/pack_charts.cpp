@@ -15,7 +15,7 @@ Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<doub
   double area = 0;
   for (const double chart_area : areas) area += chart_area;
   if (outlines.size() == 1) {
-    const Turn turn = best_turn(convex_hull(outlines[0]), options.box_aspect);
+    const Turn turn = best_turn(outlines[0], options.box_aspect);
     packing.placements.push_back({turn.cosine, turn.sine, Vec2::Zero()});
   } else {
     packing.placements = search_on_grid(outlines, area, options);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "atlas_refine/options.h"
 #include "geometry/chart.h"
 
 namespace atlas_refine {
@@ -14,6 +15,7 @@ namespace atlas_refine {
 /// holes), in the units of the box to be found.
 struct Outline {
   std::vector<std::vector<Vec2>> loops;
+  Rotate rotate = Rotate::Any;  ///< which rotations it may get
 };
 
 /// Rigid motion: p -> (cos, -sin; sin, cos) p + offset. No scaling, no

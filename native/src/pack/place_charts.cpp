@@ -10,6 +10,8 @@
 #include "atlas_refine/error.h"
 #include "measure/distortion.h"
 #include "pack/pack_charts.h"
+#include "pack/pack_in_frame.h"
+#include "pack/straight_border.h"
 
 namespace atlas_refine {
 namespace {
@@ -22,6 +24,7 @@ constexpr double kMoreThanGap = 1.0065;
 constexpr int kRounds = 10;
 // Length of a chart per side of the square that holds all charts: beyond it the box's gap is as wide as the charts.
 constexpr double kLongestChart = 400;
+constexpr double kFrameMargin = 0.0018;  // of the frame's height, along its walls: the squeeze needs some room to start
 
 Outline outline_of(const Chart& chart) {
   Outline outline;
@@ -66,21 +69,35 @@ void require_no_needles(const std::vector<Chart>& charts, double area) {
     if (times <= kLongestChart) continue;
     char text[32];
     std::snprintf(text, sizeof text, "%.0f", times);
-    throw RefineError(
-        ErrorCode::BadInput, "pack",
-        "chart " + std::to_string(c) + " is too long to be packed: " + text + " sides of a square that holds all charts", c,
-        face_with_longest_side(charts[c]));
+    throw RefineError(ErrorCode::BadInput, "pack",
+                      "chart " + std::to_string(charts[c].number) + " is too long to be packed: " + text +
+                          " sides of a square that holds all charts",
+                      charts[c].number, face_with_longest_side(charts[c]));
   }
+}
+
+/// What the packer may do with a chart, which is first turned onto an axis where that is asked.
+Outline prepared_outline(const PlaceOptions& options, Chart& chart) {
+  Outline outline = outline_of(chart);
+  outline.rotate = options.rotate;
+  if (!options.align_axes || options.rotate == Rotate::None) return outline;
+  const auto turn = turn_onto_axis(chart);
+  if (!turn) return outline;
+  for (Vec2& uv : chart.uvs) uv = turn->apply(uv);
+  outline = outline_of(chart);
+  outline.rotate = Rotate::QuarterTurns;
+  return outline;
 }
 
 }  // namespace
 
 std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOptions& options, Monitor& monitor) {
+  std::vector<Chart> placed = charts;
   std::vector<Outline> outlines;
   std::vector<double> areas;
   double area = 0;
-  for (const Chart& chart : charts) {
-    outlines.push_back(outline_of(chart));
+  for (Chart& chart : placed) {
+    outlines.push_back(prepared_outline(options, chart));
     areas.push_back(uv_area(chart));
     area += areas.back();
   }
@@ -101,11 +118,47 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
     pack.gap = (1.007 + 0.01 * round) * wanted();
     packing = pack_charts(outlines, areas, pack);
   }
-  std::vector<Chart> placed = charts;
   for (std::size_t c = 0; c < placed.size(); ++c) {
     for (Vec2& uv : placed[c].uvs) uv = packing.placements[c].apply(uv);
   }
   return placed;
+}
+
+std::optional<PlacedCharts> place_around(const std::vector<Chart>& charts, const Freedoms& freedom, const PlaceOptions& options,
+                                         Monitor& monitor) {
+  const Vec2 frame(options.box_aspect, 1);
+  PlacedCharts out{.charts = charts};
+  std::vector<Outline> outlines, obstacles;
+  std::vector<std::size_t> movable;
+  FrameOptions pack{.frame = frame,
+                    .margin = kFrameMargin,
+                    .gap = kMoreThanGap * options.gap.length(frame),
+                    .seed = options.seed,
+                    .threads = options.threads,
+                    .tick = [&](double fraction) { monitor.report(fraction); }};
+  double area = 0, taken = 0;
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    if (is_fixed(freedom, c)) {
+      obstacles.push_back(outline_of(charts[c]));
+      taken += area_within(charts[c], {Vec2::Zero(), frame});
+    } else {
+      movable.push_back(c);
+      outlines.push_back(prepared_outline(options, out.charts[c]));
+      area += uv_area(charts[c]);
+    }
+  }
+  pack.enough = std::sqrt(std::max(0.01 * frame.prod(), options.target_pe * frame.prod() - taken) / area);
+  const auto packing = pack_in_frame(outlines, obstacles, pack);
+  if (!packing) return std::nullopt;
+  out.frame = frame / packing->scale;
+  for (std::size_t k = 0; k < movable.size(); ++k) {
+    for (Vec2& uv : out.charts[movable[k]].uvs) uv = packing->placements[k].apply(uv);
+  }
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    if (!is_fixed(freedom, c)) continue;
+    for (Vec2& uv : out.charts[c].uvs) uv *= out.frame.y();
+  }
+  return out;
 }
 
 }  // namespace atlas_refine

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "atlas_refine/options.h"
-#include "geometry/chart.h"
+#include "geometry/freedom.h"
 #include "support/monitor.h"
 
 namespace atlas_refine {
@@ -16,9 +17,17 @@ struct PlaceOptions {
   double target_pe = 1;  ///< good enough: stop searching there
   std::uint64_t seed = 1;
   int threads = 1;
+  Rotate rotate = Rotate::Any;
+  bool align_axes = false;  ///< charts whose longest border runs straight get it onto an axis, unless rotate is None
 };
 
 /// The same charts, rigidly moved, at least the gap apart. Their scales and shapes are kept.
 std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOptions& options, Monitor& monitor);
+
+/// Charts around fixed ones, which come with the texture's UVs in units of its height: in the smallest frame of
+/// options.box_aspect that was found to hold them, or in one in which they cover options.target_pe less the fixed charts' share.
+/// The charts lie in that frame, the fixed ones times its height; nothing where the fixed charts leave no room.
+std::optional<PlacedCharts> place_around(const std::vector<Chart>& charts, const Freedoms& freedom, const PlaceOptions& options,
+                                         Monitor& monitor);
 
 }  // namespace atlas_refine

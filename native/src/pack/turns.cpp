@@ -83,6 +83,24 @@ std::vector<Turn> small_box_turns(const std::vector<Vec2>& hull, int count) {
   return turns;
 }
 
+std::vector<Turn> turns_to_try(const Outline& outline, int count) {
+  if (outline.rotate == Rotate::None) return {{}};
+  std::vector<Turn> turns;
+  const bool any = outline.rotate == Rotate::Any;
+  for (Turn turn : any ? small_box_turns(convex_hull(outline), count) : std::vector<Turn>{{}}) {
+    for (int quarter = 0; quarter < 4; ++quarter, turn = turn.quarter_turned()) turns.push_back(turn);
+  }
+  return turns;
+}
+
+Turn best_turn(const Outline& outline, double aspect) {
+  const std::vector<Vec2> hull = convex_hull(outline);
+  if (outline.rotate == Rotate::Any) return best_turn(hull, aspect);
+  const auto cost = [&](const Turn& turn) { return box_of_aspect(turned_box(hull, turn), aspect).area(); };
+  const Turn upright, turned = upright.quarter_turned();
+  return outline.rotate == Rotate::QuarterTurns && cost(turned) < cost(upright) ? turned : upright;
+}
+
 Turn best_turn(const std::vector<Vec2>& hull, double aspect) {
   constexpr double kQuarter = std::numbers::pi / 2;
   std::vector<double> angles = caliper_angles(hull);

@@ -31,5 +31,11 @@ std::vector<Turn> small_box_turns(const std::vector<Vec2>& hull, int count);
 /// The turn with the smallest bounding box of the given aspect (width /
 /// height), exact; for aspect 0 the smallest bounding box.
 Turn best_turn(const std::vector<Vec2>& hull, double aspect);
+/// The same among the turns that the outline may get.
+Turn best_turn(const Outline& outline, double aspect);
+
+/// The turns of the outline that are worth trying and that it may get, all
+/// quarter turns among them: of small_box_turns() at most `count` classes.
+std::vector<Turn> turns_to_try(const Outline& outline, int count);
 
 }  // namespace atlas_refine

@@ -33,6 +33,23 @@ ContactDerivatives derivatives(const ReduceModel& model, const ReduceState& stat
   return contact_derivatives(state.x[point], state.x[start], state.x[end], contact.floor_fraction * unit, contact.range);
 }
 
+/// Adds a block of the vertices' Hessian where their nodes have it.
+void add_block(const ReduceModel& model, int row, int column, Mat2 block, BlockSystem& system) {
+  if (hangs_on_box(model, row)) {
+    block.row(0) = model.lever[row].transpose() * block;
+    block.row(1).setZero();
+  }
+  if (hangs_on_box(model, column)) {
+    block.col(0) = block * model.lever[column];
+    block.col(1).setZero();
+  }
+  system.matrix.add(model.node[row], model.node[column], block);
+}
+
+void add_gradient(const ReduceModel& model, int vertex, const Vec2& gradient, BlockSystem& system) {
+  system.gradient[model.node[vertex]] += hangs_on_box(model, vertex) ? Vec2(model.lever[vertex].dot(gradient), 0) : gradient;
+}
+
 /// Slack of a contact beyond its floor, in its range.
 double slack(const ReduceModel& model, const ReduceState& state, const Contact& contact, double unit) {
   const Closest nearest = closest(model.boundary, state.x, contact.pair);
@@ -48,7 +65,8 @@ std::vector<double> measure_own_floors(const ReduceModel& model) {
   const double far_arc = far_arc_length(model, model.start.box);
   std::vector<double> floors(boundary.size(), model.gap.value);
   for (const PointEdge& pair : near_pairs(boundary, x, {}, model.gap.value * unit)) {
-    if (!of_one_piece(boundary, pair) || boundary.arc_between(pair.point, pair.edge) < far_arc) continue;
+    if (moves_as_one(model, pair) || !of_one_piece(boundary, pair) || boundary.arc_between(pair.point, pair.edge) < far_arc)
+      continue;
     const Closest nearest = closest(boundary, x, pair);
     if (faces_outside(boundary, x, pair, nearest))
       floors[pair.point] = std::min(floors[pair.point], 0.999 * nearest.distance / unit);
@@ -62,6 +80,7 @@ ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, con
   const double far_arc = far_arc_length(model, state.box);
   ContactSet found;
   for (const PointEdge& pair : near_pairs(boundary, state.x, step, model.gap.value * unit + model.range)) {
+    if (moves_as_one(model, pair)) continue;
     Contact contact{pair, model.gap.value, model.range};
     if (of_one_piece(boundary, pair)) {
       const Closest nearest = closest(boundary, state.x, pair);
@@ -83,6 +102,7 @@ double barrier(const ReduceModel& model, const ReduceState& state, const Contact
   for (const Contact& contact : contacts) sum += log_barrier(slack(model, state, contact, unit)).value;
   if (!model.has_box) return sum;
   for (int v : model.boundary.vertex) {
+    if (hangs_on_box(model, v)) continue;
     for (int axis = 0; axis < 2; ++axis) {
       sum += log_barrier(state.x[v][axis] / model.range).value +
              log_barrier((state.box[axis] - state.x[v][axis]) / model.range).value;
@@ -101,26 +121,33 @@ double least_slack(const ReduceModel& model, const ReduceState& state) {
 std::vector<std::pair<int, int>> coupled_nodes(const ReduceModel& model, const ReduceState& state, const ContactSet& contacts) {
   const Boundary& boundary = model.boundary;
   std::vector<std::pair<int, int>> pairs;
+  const auto add_nodes = [&](int a, int b) {
+    if (model.node[a] != model.node[b]) pairs.emplace_back(model.node[a], model.node[b]);
+  };
   const auto add = [&](const PointEdge& pair) {
     const auto [point, start, end] = vertices_of(boundary, pair);
-    pairs.emplace_back(point, start);
-    pairs.emplace_back(point, end);
+    add_nodes(point, start);
+    add_nodes(point, end);
   };
   for (const Contact& contact : contacts) add(contact.pair);
   const double reach = kPatternReach * (model.gap.length(state.box) + model.range);
   for (const PointEdge& pair : near_pairs(boundary, state.x, {}, reach)) {
+    if (moves_as_one(model, pair)) continue;
     if (!of_one_piece(boundary, pair) || faces_outside(boundary, state.x, pair, closest(boundary, state.x, pair))) add(pair);
   }
   if (model.has_box) {
-    for (int v : boundary.vertex) pairs.emplace_back(v, model.box_node());
+    for (int v : boundary.vertex) {
+      if (!hangs_on_box(model, v)) pairs.emplace_back(model.node[v], model.box_node());
+    }
   }
   return pairs;
 }
 
 bool covers(const BlockLdlt& matrix, const ReduceModel& model, const ContactSet& contacts) {
+  const auto has = [&](int a, int b) { return model.node[a] == model.node[b] || matrix.slot(model.node[a], model.node[b]) >= 0; };
   return matrix.node_count() > 0 && std::all_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
            const auto [point, start, end] = vertices_of(model.boundary, contact.pair);
-           return matrix.slot(point, start) >= 0 && matrix.slot(point, end) >= 0;
+           return has(point, start) && has(point, end);
          });
 }
 
@@ -134,8 +161,8 @@ void add_contacts(const ReduceModel& model, const ReduceState& state, const Cont
     const std::array<int, 3> v = vertices_of(model.boundary, contact.pair);
     unit_slope -= d.slope * contact.floor_fraction;
     for (int i = 0; i < 3; ++i) {
-      system.gradient[v[i]] += stiffness * d.gradient[i];
-      for (int j = 0; j < 3; ++j) system.matrix.add(v[i], v[j], stiffness * d.hessian[i][j]);
+      add_gradient(model, v[i], stiffness * d.gradient[i], system);
+      for (int j = 0; j < 3; ++j) add_block(model, v[i], v[j], stiffness * d.hessian[i][j], system);
     }
   }
   if (!model.has_box) return;
@@ -152,14 +179,16 @@ void add_walls(const ReduceModel& model, const ReduceState& state, double stiffn
   const double aspect = model.aspect, range = model.range;
   Vec2 sides = Vec2::Zero(), sides_stiff = Vec2::Zero();  // by width and height
   for (int v : model.boundary.vertex) {
+    if (hangs_on_box(model, v)) continue;
+    const int node = model.node[v];
     Mat2 coupling = Mat2::Zero();  // rows: vertex, columns: sides
     for (int axis = 0; axis < 2; ++axis) {
       const BarrierValue low = log_barrier(state.x[v][axis] / range);
       const BarrierValue high = log_barrier((state.box[axis] - state.x[v][axis]) / range);
-      system.gradient[v][axis] += stiffness * (low.slope - high.slope) / range;
+      system.gradient[node][axis] += stiffness * (low.slope - high.slope) / range;
       const double low_stiff = stiffness * low.curvature / (range * range);
       const double high_stiff = stiffness * high.curvature / (range * range);
-      system.matrix.diagonal[v](axis, axis) += low_stiff + high_stiff;
+      system.matrix.diagonal[node](axis, axis) += low_stiff + high_stiff;
       sides[axis] += stiffness * high.slope / range;
       sides_stiff[axis] += high_stiff;
       coupling(axis, axis) = -high_stiff;
@@ -170,7 +199,7 @@ void add_walls(const ReduceModel& model, const ReduceState& state, double stiffn
       coupling(1, 0) = coupling(1, 1);
       coupling.col(1).setZero();
     }
-    system.matrix.add(v, box_node, coupling);
+    system.matrix.add(node, box_node, coupling);
   }
   system.gradient[box_node] += on_box_node(model, sides);
   if (aspect == 0) {

@@ -22,6 +22,31 @@ std::vector<Vec2> input_uvs(const Piece& piece, const std::vector<Chart>& input)
   return out;
 }
 
+Vec2 mean(const std::vector<Vec2>& points) {
+  Vec2 sum = Vec2::Zero();
+  for (const Vec2& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
+/// The image of `shape` under the rotation, scaling and translation that brings it nearest to `placed` (least squares).
+std::vector<Vec2> nearest_similar(const std::vector<Vec2>& shape, const std::vector<Vec2>& placed) {
+  const Vec2 from = mean(shape), to = mean(placed);
+  double cosine = 0, sine = 0, square = 0;  // times the scale
+  for (std::size_t v = 0; v < shape.size(); ++v) {
+    const Vec2 p = shape[v] - from, q = placed[v] - to;
+    cosine += p.dot(q);
+    sine += p.x() * q.y() - p.y() * q.x();
+    square += p.squaredNorm();
+  }
+  if (square == 0) return placed;
+  Mat2 map;
+  map << cosine / square, -sine / square, sine / square, cosine / square;
+  std::vector<Vec2> out;
+  out.reserve(shape.size());
+  for (const Vec2& p : shape) out.push_back(to + map * (p - from));
+  return out;
+}
+
 }  // namespace
 
 std::vector<double> wanted_density(const std::vector<Chart>& input, Density density) {
@@ -37,9 +62,10 @@ std::vector<double> wanted_density(const std::vector<Chart>& input, Density dens
   return out;
 }
 
-bool set_density(std::vector<Chart>& charts, const std::vector<double>& wanted, Density density) {
+bool set_density(std::vector<Chart>& charts, const std::vector<double>& wanted, Density density, const Freedoms& freedom) {
   double least = 0, most = 0;
   for (std::size_t c = 0; c < charts.size(); ++c) {
+    if (is_fixed(freedom, c)) continue;
     const double own = density == Density::Equal ? 1 / dirichlet_sums(charts[c]).best_scale() : texel_density(charts[c]);
     const double scale = wanted[c] / own;
     for (Vec2& uv : charts[c].uvs) uv *= scale;
@@ -47,6 +73,13 @@ bool set_density(std::vector<Chart>& charts, const std::vector<double>& wanted, 
     most = std::max(most, scale);
   }
   return most > 1.001 * least;
+}
+
+void restore_shapes(const std::vector<Chart>& input, const Freedoms& freedom, CutAtlas& atlas) {
+  for (Piece& piece : atlas.pieces) {
+    if (freedom.empty() || freedom[piece.chart] != Freedom::Moves) continue;
+    piece.mesh.uvs = nearest_similar(input_uvs(piece, input), piece.mesh.uvs);
+  }
 }
 
 Objective goal_of(const std::vector<Chart>& input, const CutAtlas& atlas, const RefineOptions& options) {

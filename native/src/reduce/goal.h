@@ -5,6 +5,7 @@
 
 #include "atlas_refine/options.h"
 #include "cut/cut_atlas.h"
+#include "geometry/freedom.h"
 #include "solve/objective.h"
 
 namespace atlas_refine {
@@ -14,8 +15,12 @@ namespace atlas_refine {
 std::vector<double> wanted_density(const std::vector<Chart>& input, Density density);
 
 /// Scales each chart of `charts` as it is now to its wanted density. Equal scales to the chart's own optimum of E_d, keep to the
-/// area. True where the charts' relative scales changed by more than a thousandth.
-bool set_density(std::vector<Chart>& charts, const std::vector<double>& wanted, Density density);
+/// area. Fixed charts keep theirs. True where the others' relative scales changed by more than a thousandth.
+bool set_density(std::vector<Chart>& charts, const std::vector<double>& wanted, Density density, const Freedoms& freedom = {});
+
+/// Pieces whose charts only move get the shapes of their charts in `input` back, to rounding: the similar image that is nearest
+/// to what they are.
+void restore_shapes(const std::vector<Chart>& input, const Freedoms& freedom, CutAtlas& atlas);
 
 /// The objective of `atlas`, whose charts were `input`.
 Objective goal_of(const std::vector<Chart>& input, const CutAtlas& atlas, const RefineOptions& options);

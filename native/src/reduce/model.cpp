@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geometry/collision.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "reduce/contact_set.h"
+#include "solve/symmetric_dirichlet.h"
 
 namespace atlas_refine {
 namespace {
@@ -34,12 +36,18 @@ void flatten(const std::vector<Chart>& charts, ReduceModel& model) {
   int count = 0;
   for (const Chart& chart : charts) {
     model.first_vertex.push_back(count);
-    for (const Triangle& t : chart.triangles) model.triangles.push_back({count + t[0], count + t[1], count + t[2]});
+    for (const Triangle& t : chart.triangles) model.surface_triangles.push_back({count + t[0], count + t[1], count + t[2]});
     model.surface.insert(model.surface.end(), chart.surface.begin(), chart.surface.end());
     for (const Vec2& uv : chart.uvs) model.start.x.push_back(uv / model.objective.unit);
     count += chart.vertex_count();
   }
   model.first_vertex.push_back(count);
+}
+
+/// A start in a frame stays where it is.
+void place_in_frame(const Vec2& frame, ReduceModel& model) {
+  model.start.box = frame / model.objective.unit;
+  model.range = kRangeFraction * model.start.box.norm();
 }
 
 void place_start(ReduceModel& model) {
@@ -54,8 +62,55 @@ void place_start(ReduceModel& model) {
   model.start.box = size + 2 * slack;
 }
 
+/// Leaves those that bend in the objective: of the others energy and mass are told once.
+void keep_bending(const std::vector<Chart>& charts, ReduceModel& model) {
+  Objective all = std::move(model.objective);
+  model.objective = {.unit = all.unit};
+  double fixed_weight = 0;
+  std::size_t t = 0;
+  for (std::size_t p = 0; p < charts.size(); ++p) {
+    for (std::size_t end = t + charts[p].triangles.size(); t < end; ++t) {
+      const Triangle& v = model.surface_triangles[t];
+      if (bends(model.freedom, p)) {
+        model.triangles.push_back(v);
+        model.objective.inverse_edges.push_back(all.inverse_edges[t]);
+        model.objective.weight.push_back(all.weight[t]);
+      } else if (model.freedom[p] == Freedom::Fixed) {
+        fixed_weight += all.weight[t];
+      } else {
+        const auto& x = model.start.x;
+        model.held_energy += all.weight[t] * symmetric_dirichlet(jacobian(all.inverse_edges[t], x[v[0]], x[v[1]], x[v[2]]));
+        model.masses[model.first_vertex[p]] += all.weight[t];
+      }
+    }
+  }
+  const double rest = 1 - fixed_weight > 1e-12 ? 1 - fixed_weight : 1;
+  for (double& weight : model.objective.weight) weight /= rest;
+  for (double& mass : model.masses) mass /= rest;
+  model.held_energy /= rest;
+}
+
+/// Ties the vertices of pieces that do not bend to one node, or to the box.
+void attach(const std::vector<Chart>& charts, ReduceModel& model) {
+  int first_fixed = -1;
+  for (int p = 0; p < static_cast<int>(charts.size()); ++p) {
+    if (bends(model.freedom, p)) continue;
+    const bool fixed = model.freedom[p] == Freedom::Fixed;
+    if (fixed && first_fixed < 0) first_fixed = p;
+    const int node = fixed ? model.box_node() : model.first_vertex[p];
+    std::fill(model.node.begin() + model.first_vertex[p], model.node.begin() + model.first_vertex[p + 1], node);
+    if (fixed) model.fixed_share += area_within(charts[p], {Vec2::Zero(), model.objective.unit * model.start.box});
+  }
+  if (first_fixed < 0) return;
+  const Vec2 sides = model.start.box;
+  model.fixed_share /= model.objective.unit * model.objective.unit * sides.prod();
+  for (const Vec2& x : model.start.x) model.lever.push_back(x / sides.y());
+  for (int& piece : model.boundary.chart) {
+    if (model.freedom[piece] == Freedom::Fixed) piece = first_fixed;
+  }
+}
+
 void set_masses(ReduceModel& model) {
-  model.masses.assign(model.node_count(), 0);
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {
     for (int v : model.triangles[t]) model.masses[v] += model.objective.weight[t] / 3;
   }
@@ -71,12 +126,24 @@ ReduceModel make_model(const ReduceProblem& problem) {
   model.aspect = problem.box_aspect;
   model.has_box = problem.pe_target > 0;
   model.threads = problem.threads;
+  model.freedom = problem.freedom;
   flatten(problem.charts, model);
+  model.masses.assign(model.node_count(), 0);
+  if (model.freedom.empty())
+    model.triangles = model.surface_triangles;
+  else
+    keep_bending(problem.charts, model);
   set_masses(model);
   model.boundary = make_boundary(problem.charts, model.first_vertex);
   for (double& arc : model.boundary.arc) arc /= model.objective.unit;
   for (double& length : model.boundary.loop_length) length /= model.objective.unit;
-  place_start(model);
+  if (problem.frame.x() > 0)
+    place_in_frame(problem.frame, model);
+  else
+    place_start(model);
+  model.node.resize(model.vertex_count());
+  std::iota(model.node.begin(), model.node.end(), 0);
+  if (!model.freedom.empty()) attach(problem.charts, model);
   model.own_floor = measure_own_floors(model);
   return model;
 }
@@ -94,6 +161,7 @@ double chart_area(const ReduceModel& model, const std::vector<Vec2>& x) {
   const Boundary& boundary = model.boundary;
   double twice = 0;
   for (int e = 0; e < boundary.size(); ++e) {
+    if (hangs_on_box(model, boundary.vertex[e])) continue;
     const Vec2& a = x[boundary.vertex[e]];
     const Vec2& b = x[boundary.vertex[boundary.next[e]]];
     twice += a.x() * b.y() - a.y() * b.x();
@@ -101,14 +169,21 @@ double chart_area(const ReduceModel& model, const std::vector<Vec2>& x) {
   return 0.5 * twice;
 }
 
-double box_pe(const ReduceModel& model, const ReduceState& state) { return chart_area(model, state.x) / state.box.prod(); }
+double box_pe(const ReduceModel& model, const ReduceState& state) {
+  return chart_area(model, state.x) / state.box.prod() + model.fixed_share;
+}
 
 double tight_pe(const ReduceModel& model, const ReduceState& state) {
+  if (!model.lever.empty()) return box_pe(model, state);
   return chart_area(model, state.x) / box_of_aspect(box_of(state.x), model.aspect).area();
 }
 
+double model_energy(const ReduceModel& model, const std::vector<Vec2>& x) {
+  return model.held_energy + dirichlet_energy(model.objective, model.triangles, x);
+}
+
 double surface_distortion(const ReduceModel& model, const std::vector<Vec2>& x) {
-  return dirichlet_sums(model.surface, model.triangles, x).best_energy();
+  return dirichlet_sums(model.surface, model.surface_triangles, x).best_energy();
 }
 
 std::vector<Vec2> pe_gradient(const ReduceModel& model, const ReduceState& state) {
@@ -116,15 +191,25 @@ std::vector<Vec2> pe_gradient(const ReduceModel& model, const ReduceState& state
   const Boundary& boundary = model.boundary;
   const double area = chart_area(model, state.x);
   for (int e = 0; e < boundary.size(); ++e) {
+    if (!bends(model.freedom, boundary.chart[e])) continue;
     const Vec2 chord = state.x[boundary.vertex[boundary.next[e]]] - state.x[boundary.vertex[boundary.previous[e]]];
     gradient[boundary.vertex[e]] += Vec2(chord.y(), -chord.x()) / (2 * area);
   }
   gradient[model.box_node()] += on_box_node(model, -state.box.cwiseInverse());
+  if (model.lever.empty()) return gradient;
+  const double others = area / state.box.prod();  // the fixed share does not change
+  for (Vec2& g : gradient) g *= others / (others + model.fixed_share);
   return gradient;
 }
 
 Vec2 on_box_node(const ReduceModel& model, const Vec2& by_sides) {
   return model.aspect == 0 ? by_sides : Vec2(model.aspect * by_sides.x() + by_sides.y(), 0);
+}
+
+void spread(const ReduceModel& model, std::vector<Vec2>& step) {
+  if (model.freedom.empty()) return;
+  for (int v = 0; v < model.vertex_count(); ++v)
+    step[v] = hangs_on_box(model, v) ? Vec2(step[model.box_node()].x() * model.lever[v]) : step[model.node[v]];
 }
 
 ReduceState moved(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step, const StepBounds& bounds,
@@ -138,6 +223,9 @@ ReduceState moved(const ReduceModel& model, const ReduceState& state, const std:
   const Vec2& node = step[model.box_node()];
   const Vec2 sides = model.aspect == 0 ? node : Vec2(model.aspect * node.x(), node.x());
   out.box += fraction * bounds.least() * sides;
+  for (int v = 0; v < static_cast<int>(model.lever.size()); ++v) {
+    if (hangs_on_box(model, v)) out.x[v] = out.box.y() * model.lever[v];
+  }
   return out;
 }
 
@@ -153,6 +241,7 @@ StepBounds free_step(const ReduceModel& model, const ReduceState& state, const s
   const Boundary& boundary = model.boundary;
   const double whole = limit;
   for (const PointEdge& pair : near_pairs(boundary, state.x, scaled, 0)) {
+    if (moves_as_one(model, pair)) continue;
     const double hit = hit_time(moving(boundary.vertex[pair.point]), moving(boundary.vertex[pair.edge]),
                                 moving(boundary.vertex[boundary.next[pair.edge]]), whole);
     limit = std::min(limit, kShortOf * hit);

@@ -9,21 +9,30 @@
 
 namespace atlas_refine {
 
-/// Positions of all vertices, and the box [0, width] x [0, height] that holds them. Solver units: the surface has area 1.
+/// Positions of all vertices, and the box [0, width] x [0, height] that holds those that are not fixed. Solver units: the surface
+/// has area 1.
 struct ReduceState {
   std::vector<Vec2> x;
   Vec2 box = Vec2::Zero();
 };
 
 /// Nodes are the vertices and, where there is a box, one more that stands for its sides: (width, height), or (height, unused)
-/// where the aspect is fixed.
+/// where the aspect is fixed. Vertices of a piece that only moves share the node of its first; those of a fixed piece hang on the
+/// box: in solver units the unit square of the texture shrinks, and what is fixed in it shrinks with it. Nodes that no vertex
+/// moves with have an empty equation.
 struct ReduceModel {
-  std::vector<int> first_vertex;  ///< of each piece; then the number of vertices
-  std::vector<Triangle> triangles;
-  Objective objective;
-  std::vector<RestTriangle> surface;  ///< in model units: what max_distortion is measured on
-  std::vector<double> masses;         ///< one per node: a third of the triangles around it; 1 for the box
-  Boundary boundary;
+  std::vector<int> first_vertex;            ///< of each piece; then the number of vertices
+  std::vector<Triangle> triangles;          ///< of the pieces that bend
+  Objective objective;                      ///< of these
+  double held_energy = 0;                   ///< of the pieces that only move: added to the objective
+  std::vector<Triangle> surface_triangles;  ///< of all pieces
+  std::vector<RestTriangle> surface;        ///< of these, in model units: what max_distortion is measured on
+  std::vector<double> masses;               ///< one per node: a third of the triangles around it; 1 for the box
+  Boundary boundary;                        ///< all fixed pieces count as one: the first of them
+  Freedoms freedom;                         ///< one per piece; empty where all bend
+  std::vector<int> node;                    ///< per vertex: what it moves with
+  std::vector<Vec2> lever;        ///< per vertex of a fixed piece: its position / height of the box; empty where none is fixed
+  double fixed_share = 0;         ///< of the box, that fixed pieces cover
   std::vector<double> own_floor;  ///< per boundary vertex: fraction of the gap unit to far edges of its own piece
   Gap gap;
   double range = 0;  ///< the barrier is felt so far beyond the gap
@@ -50,11 +59,24 @@ double box_pe(const ReduceModel& model, const ReduceState& state);    ///< again
 double tight_pe(const ReduceModel& model, const ReduceState& state);  ///< against the vertices' box of the asked aspect
 /// Gradient of log box_pe, one entry per node.
 std::vector<Vec2> pe_gradient(const ReduceModel& model, const ReduceState& state);
+/// Objective of all pieces that are not fixed; infinite with a flip.
+double model_energy(const ReduceModel& model, const std::vector<Vec2>& x);
 /// E_d on the surface, under the one global scale that minimises it.
 double surface_distortion(const ReduceModel& model, const std::vector<Vec2>& x);
 
 /// A gradient by the sides of the box as the box node has it.
 Vec2 on_box_node(const ReduceModel& model, const Vec2& by_sides);
+/// Whether the vertex hangs on the box.
+inline bool hangs_on_box(const ReduceModel& model, int vertex) {
+  return !model.lever.empty() && model.node[vertex] == model.box_node();
+}
+/// Whether no step changes the distance between the point and the edge, or none needs to mind.
+inline bool moves_as_one(const ReduceModel& model, const PointEdge& pair) {
+  const int piece = model.boundary.chart[pair.point];
+  return piece == model.boundary.chart[pair.edge] && !bends(model.freedom, piece);
+}
+/// From a step of the nodes to one of all vertices, in place.
+void spread(const ReduceModel& model, std::vector<Vec2>& step);
 /// state + fraction * bounds * step; the box takes the smallest of the bounds.
 ReduceState moved(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step, const StepBounds& bounds,
                   double fraction);

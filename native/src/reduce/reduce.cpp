@@ -64,7 +64,7 @@ void measure(const Task& task, Iterate& at) {
 
 Iterate first_iterate(const Task& task) {
   Iterate at{.state = task.model.start};
-  at.energy = dirichlet_energy(task.model.objective, task.model.triangles, at.state.x);
+  at.energy = model_energy(task.model, at.state.x);
   measure(task, at);
   return at;
 }
@@ -80,6 +80,9 @@ void assemble(const ReduceModel& model, const ReduceState& state, double stiffne
     slots = triangle_slots(system.matrix, model.triangles);
   }
   system.set_zero();
+  for (int v = 0; v < model.vertex_count(); ++v) {
+    if (model.node[v] != v) system.matrix.diagonal[v] += Mat2::Identity();  // an empty equation
+  }
   add_dirichlet(model.objective, model.triangles, slots, state.x, model.threads, system);
   add_contacts(model, state, contacts, stiffness, system);
   if (model.has_box) add_walls(model, state, stiffness, system);
@@ -115,6 +118,7 @@ std::optional<Step> compute_step(const Task& task, const Iterate& at, Schedule& 
     step.slope = -step.price * dot(gradient, step.direction);
   }
   step.slope += dot(system.gradient, step.direction);
+  spread(task.model, step.direction);
   return step;
 }
 
@@ -142,7 +146,7 @@ void advance(const Task& task, const Step& step, const Schedule& schedule, Itera
     if (task.bounded() && !(trial.state.box.minCoeff() > 0)) return kInfinite;
     const double pressure = barrier(model, trial.state, contacts);
     if (!std::isfinite(pressure)) return kInfinite;
-    trial.energy = dirichlet_energy(model.objective, model.triangles, trial.state.x);
+    trial.energy = model_energy(model, trial.state.x);
     return merit(trial.state, trial.energy, pressure);
   });
   if (at.fraction == 0) return;
@@ -211,9 +215,18 @@ bool better(const Task& task, const Iterate& a, const Iterate& b) {
   return a_holds ? a.energy < b.energy : a.pe > b.pe;
 }
 
+/// Of every triangle of every piece, those that do not bend too.
+std::vector<double> energy_of_triangles(const Task& task, const std::vector<Vec2>& x) {
+  const ReduceModel& model = task.model;
+  if (model.freedom.empty()) return triangle_energies(model.objective, model.triangles, x);
+  const Objective all = task.problem.objective ? *task.problem.objective : make_objective(task.problem.charts);
+  return triangle_energies(all, model.surface_triangles, x);
+}
+
 ReduceResult result_of(const Task& task, const Iterate& best, ReduceStatus status, double stiffness, int iterations) {
   const ReduceModel& model = task.model;
   ReduceResult out{.uvs = by_piece(model, best.state.x, model.objective.unit), .status = status};
+  if (task.problem.frame.x() > 0) out.frame = model.objective.unit * best.state.box;
   out.reached = task.holds_bound(best);
   out.within_limit = task.within_limit(best);
   out.pe = best.pe;
@@ -221,7 +234,7 @@ ReduceResult result_of(const Task& task, const Iterate& best, ReduceStatus statu
   out.distortion = surface_distortion(model, best.state.x);
   out.price = best.price;
   out.iterations = iterations;
-  const std::vector<double> energies = triangle_energies(model.objective, model.triangles, best.state.x);
+  const std::vector<double> energies = energy_of_triangles(task, best.state.x);
   auto next = energies.begin();
   for (const Chart& chart : task.problem.charts) {
     out.triangle_energy.emplace_back(next, next + static_cast<std::ptrdiff_t>(chart.triangles.size()));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "atlas_refine/options.h"
-#include "geometry/chart.h"
+#include "geometry/freedom.h"
 #include "solve/objective.h"
 
 namespace atlas_refine {
@@ -27,6 +27,9 @@ struct ReduceProblem {
   double max_rise = 0;  ///< give up the climb where the objective exceeds its least so far by this factor - 1; 0 = no limit
   int max_iterations = 600;
   int threads = 1;
+  /// Charts that only move count in the objective, by what they have; fixed ones do not.
+  Freedoms freedom = {};
+  Vec2 frame = Vec2::Zero();  ///< PlacedCharts::frame; a problem with one has `box_aspect` and `pe_target`
 };
 
 enum class ReduceStatus {
@@ -52,8 +55,9 @@ using ReduceMonitor = std::function<void(const ReduceProgress&)>;
 /// there, or the highest PE.
 struct ReduceResult {
   std::vector<std::vector<Vec2>> uvs;  ///< one array per chart, in the start's units
+  Vec2 frame = Vec2::Zero();           ///< where the problem has one: what it has become
   ReduceStatus status = ReduceStatus::Converged;
-  bool reached = false;      ///< PE of the charts' own bounding box (of the asked aspect) is at least the target
+  bool reached = false;  ///< PE of the frame, or of the charts' own bounding box (of the asked aspect), is at least the target
   bool within_limit = true;  ///< E_d is at most max_distortion
   double pe = 0;
   double least_energy = 0;  ///< the least objective on the way, at whatever PE

@@ -19,17 +19,19 @@ constexpr double kNoticeable = 0.02;
 constexpr double kMostRise = 0.06;  // at once where it has risen by more than this,
 constexpr double kSpared = 0.25;    // and is kept where it spares this part of the distortion.
 
-ReduceResult reduce_from(const std::vector<Chart>& start, const Objective& objective, const Gap& gap,
-                         const SqueezeOptions& options, int threads, Monitor& monitor) {
+ReduceResult reduce_from(const PlacedCharts& start, const Objective& objective, const Gap& gap, const SqueezeOptions& options,
+                         int threads, Monitor& monitor) {
   double first_pe = 0;
-  const ReduceProblem problem{.charts = start,
+  const ReduceProblem problem{.charts = start.charts,
                               .objective = objective,
                               .gap = gap,
                               .box_aspect = options.box_aspect,
                               .pe_target = options.pe_bound,
                               .max_distortion = options.max_distortion,
-                              .max_rise = gap.value == options.gaps.back().value || start.size() == 1 ? 0 : kMostRise,
-                              .threads = threads};
+                              .max_rise = gap.value == options.gaps.back().value || start.charts.size() == 1 ? 0 : kMostRise,
+                              .threads = threads,
+                              .freedom = options.freedom,
+                              .frame = start.frame};
   return reduce_distortion(problem, [&](const ReduceProgress& progress) {
     if (progress.iteration == 0) first_pe = progress.pe;
     const double way = std::log(options.pe_bound / std::min(first_pe, 0.999 * options.pe_bound));
@@ -50,9 +52,10 @@ bool usable(const ReduceResult& result) {
   return result.energy < kCrushed * std::max(1.0, result.first_energy);
 }
 
-std::vector<Chart> with_uvs_of(std::vector<Chart> charts, const ReduceResult& result) {
-  for (std::size_t c = 0; c < charts.size(); ++c) charts[c].uvs = result.uvs[c];
-  return charts;
+PlacedCharts with_uvs_of(PlacedCharts placed, const ReduceResult& result) {
+  for (std::size_t c = 0; c < placed.charts.size(); ++c) placed.charts[c].uvs = result.uvs[c];
+  placed.frame = result.frame;
+  return placed;
 }
 
 bool holds(const ReduceResult& result) { return result.reached && result.within_limit; }
@@ -79,7 +82,7 @@ std::string reason(const Gap& gap, ReduceStatus status) {
 }
 
 /// The best result of all starts at one gap.
-ReduceResult best_at(const Gap& gap, const std::vector<std::vector<Chart>>& starts, const Objective& objective,
+ReduceResult best_at(const Gap& gap, const std::vector<PlacedCharts>& starts, const Objective& objective,
                      const SqueezeOptions& options, Monitor& monitor, int& iterations, int& best) {
   const int count = static_cast<int>(starts.size());
   std::vector<ReduceResult> results(count);
@@ -97,21 +100,16 @@ ReduceResult best_at(const Gap& gap, const std::vector<std::vector<Chart>>& star
 
 }  // namespace
 
-std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_bound, double box_aspect) {
-  double perimeter = 0;
-  for (const Chart& chart : charts) {
-    for (const auto& loop : chart.boundary_loops) {
-      for (std::size_t k = 0; k < loop.size(); ++k)
-        perimeter += (chart.uvs[loop[(k + 1) % loop.size()]] - chart.uvs[loop[k]]).norm();
-    }
-  }
+std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_bound, double box_aspect, double fixed_share) {
+  constexpr double kLeastShare = 0.01;  // of the box, for the charts
+  const double perimeter = uv_perimeter(charts);
   const double area = uv_area(charts);
-  const Vec2 box = sides_of_area(area / pe_bound, box_aspect);
+  const Vec2 box = sides_of_area(area / std::max(kLeastShare, pe_bound - fixed_share), box_aspect);
   // Charts grown by half the gap must fit into the box grown likewise; corners add a circle's sectors at most.
   const auto leaves_room = [&](const Gap& gap) {
     const double g = gap.length(box);
     const double grown = area + 0.5 * g * perimeter + 0.25 * std::numbers::pi * g * g * static_cast<double>(charts.size());
-    return grown <= (box.x() + g) * (box.y() + g);
+    return grown + fixed_share * box.prod() <= (box.x() + g) * (box.y() + g);
   };
   std::vector<Gap> gaps;
   Gap gap;
@@ -121,19 +119,20 @@ std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_boun
   return gaps;
 }
 
-Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const Objective& objective, const SqueezeOptions& options,
+Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor) {
   Squeezed out;
   std::string note = options.gaps.front().value < Gap{}.value ? kNoRoom : "";
-  std::vector<std::vector<Chart>> present = starts;
+  std::vector<PlacedCharts> present = starts;
   for (const Gap& gap : options.gaps) {
     int best = 0;
     ReduceResult result = best_at(gap, present, objective, options, monitor, out.iterations, best);
     const bool first = &gap == &options.gaps.front();
     const bool held = !first && holds(out.outcome);
-    const bool done = holds(result) && (starts.front().size() == 1 || result.energy <= (1 + kNoticeable) * result.least_energy);
+    const bool done =
+        holds(result) && (starts.front().charts.size() == 1 || result.energy <= (1 + kNoticeable) * result.least_energy);
     const std::string next_note = reason(gap, holds(result) ? ReduceStatus::TooExpensive : result.status);
-    present = usable(result) ? std::vector<std::vector<Chart>>{with_uvs_of(present[best], result)} : starts;
+    present = usable(result) ? std::vector<PlacedCharts>{with_uvs_of(present[best], result)} : starts;
     if (held && !spares(result, out.outcome)) break;
     if (first || better(result, out.outcome)) {
       out.gap = gap;

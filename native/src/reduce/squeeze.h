@@ -15,6 +15,7 @@ struct SqueezeOptions {
   std::vector<Gap> gaps;      ///< to be tried in this order: the asked one, then smaller ones where that is allowed
   double max_distortion = 0;  ///< of the surface's E_d; 0 = no limit
   int threads = 1;
+  Freedoms freedom = {};  ///< of the charts; fixed ones need starts in a frame
 };
 
 /// Why the first of automatic_gaps() may be smaller than the default.
@@ -28,14 +29,14 @@ struct Squeezed {
 };
 
 /// The gaps that an automatic one may take: the default and smaller ones, down to a sixtieth. Those that the charts' borders
-/// alone leave no room for at the bound are left out, but for the last.
-std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_bound, double box_aspect);
+/// alone leave no room for at the bound are left out, but for the last. `fixed_share` of the box is covered by other charts.
+std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_bound, double box_aspect, double fixed_share = 0);
 
 /// Reduces from every start (each free of flips, crossings and nearer charts than the first gap) and keeps the result of least
 /// distortion that holds the bound. Where none does, or the bound costs much distortion with this gap, the next one is tried, and
 /// kept where it spares a good part of that distortion; in the end, where none holds the bound, the state of the highest PE is
 /// returned. Starts run in parallel; the choice is by the objective, ties by index.
-Squeezed squeeze(const std::vector<std::vector<Chart>>& starts, const Objective& objective, const SqueezeOptions& options,
+Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor);
 
 }  // namespace atlas_refine

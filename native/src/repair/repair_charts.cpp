@@ -108,6 +108,13 @@ std::optional<Mended> mended_where_needed(const Chart& chart, int index, const s
   return mended(*parted, What::Parted);
 }
 
+/// A chart whose shape is to be kept must be valid as it is.
+std::optional<Mended> refused_where_invalid(const Chart& chart) {
+  const Validity validity = certify_charts({chart});
+  if (validity.valid()) return std::nullopt;
+  return refused("is to keep its shape, but " + validity.problem);
+}
+
 /// The faces of the bad triangles.
 std::vector<int> faces_of(const Chart& chart, const std::vector<char>& bad) {
   std::set<int> faces;
@@ -127,7 +134,9 @@ void append(CutAtlas own, int chart, CutAtlas& all) {
 
 void repair_chart(const Chart& chart, int index, const RepairOptions& options, Monitor& monitor, RepairedCharts& out) {
   const std::vector<char> bad = bad_triangles(chart);
-  std::optional<Mended> result = mended_where_needed(chart, index, bad, options, monitor);
+  std::optional<Mended> result;
+  if (bends(options.freedom, index)) result = mended_where_needed(chart, index, bad, options, monitor);
+  if (!bends(options.freedom, index) && !is_fixed(options.freedom, index)) result = refused_where_invalid(chart);
   if (!result || !result->reason.empty()) append(whole_atlas({chart}), index, out.atlas);
   if (!result) return;
   ChartRepair repair{.chart = index, .what = result->what, .faces = faces_of(chart, bad)};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cut/cut_atlas.h"
+#include "geometry/freedom.h"
 #include "support/monitor.h"
 
 namespace atlas_refine {
@@ -13,6 +14,7 @@ struct RepairOptions {
   /// Per vertex of each chart: the point in space where it lies. With it borders of a chart that touch at such a point alone (a
   /// pinch) are left as they are.
   const std::vector<std::vector<int>>* space_points = nullptr;
+  Freedoms freedom = {};     ///< per chart: fixed ones are left alone, those that only move are not mended
   bool may_overlap = false;  ///< positive triangles are enough, and disks with holes: the charts are going to be deformed
   bool open_closed = false;  ///< charts without a boundary, or with a handle, may be opened along edges of their faces
   int threads = 1;

@@ -11,13 +11,15 @@
 #include "measure/distortion.h"
 #include "report/cut_faces.h"
 #include "report/journal.h"
+#include "report/locked.h"
 
 namespace atlas_refine {
 namespace {
 
 /// UVs in the unit square at `origin` as they will be stored, per piece.
-std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, const Vec2& origin, const RefineOptions& options) {
-  const Box box = box_of_aspect(uv_box(pieces), options.box_aspect);
+std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, const Vec2& frame, const Vec2& origin,
+                                          const RefineOptions& options) {
+  const Box box = frame.x() > 0 ? Box{Vec2::Zero(), frame} : box_of_aspect(uv_box(pieces), options.box_aspect);
   const Vec2 sides = options.box_aspect > 0 ? box.size() : Vec2::Constant(box.size().maxCoeff());
   std::vector<std::vector<Vec2>> out;
   for (const Chart& piece : pieces) {
@@ -59,8 +61,8 @@ class Refusal {
 };
 
 /// As many charts as pieces, with as many vertices, have the seams that were meant.
-void require_valid(const InputAtlas& input, const Atlas& output, const ChartSet& set, const std::vector<Chart>& pieces,
-                   bool cut) {
+void require_valid(const InputAtlas& input, const Atlas& output, const ChartSet& set, const Freedoms& freedom,
+                   const std::vector<Chart>& pieces, bool cut) {
   const Refusal refuse(output);
   // Where faces of one chart are wound both ways, a part of it may be wound against the rest: it is not mirrored for that.
   const auto& mixed = input.set.mixed_winding;
@@ -69,7 +71,7 @@ void require_valid(const InputAtlas& input, const Atlas& output, const ChartSet&
     oriented.charts = charts_as_placed(set);
     oriented.mirrored.assign(set.mirrored.size(), false);
   }
-  const Validity validity = validate_split(oriented);
+  const Validity validity = validate_split(oriented, freedom);
   if (!validity.valid()) refuse(validity.problem, validity.chart, validity.face);
   const auto vertices = [](const std::vector<Chart>& charts) {
     int count = 0;
@@ -80,9 +82,10 @@ void require_valid(const InputAtlas& input, const Atlas& output, const ChartSet&
     refuse("its seams are not those that were meant");
 }
 
-void require_gap(const Atlas& output, const std::vector<Chart>& stored, const Gap& gap, double box_aspect) {
-  const Vec2 box = box_of_aspect(uv_box(stored), box_aspect).size();
-  const double between = gap_between_charts(stored);
+void require_gap(const Atlas& output, const std::vector<Chart>& stored, const Freedoms& freedom, const Gap& gap,
+                 double box_aspect) {
+  const Vec2 box = any_fixed(freedom) ? Vec2(box_aspect, 1) : box_of_aspect(uv_box(stored), box_aspect).size();
+  const double between = gap_between_charts(stored, freedom);
   if (between >= gap.length(box)) return;
   Refusal refuse(output);
   refuse("two charts are " + number_text("%.6g", between / box.norm()) + " of the diagonal apart, nearer than the gap of " +
@@ -176,15 +179,22 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
   CutFaces faces = faces_of(input, atlas, cut);
   Atlas output{input.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
   CertifiedAtlas out{.stored = meshes_of(atlas)};
-  out.uvs = stored_uvs(out.stored, input.origin, options);
+  out.uvs = stored_uvs(out.stored, atlas.frame, input.origin, options);
+  // Charts are only cut where none is fixed.
+  const Freedoms freedom = cut ? Freedoms{} : freedom_of(input.set, options);
+  restore_fixed(input, freedom, out.uvs);
   for (const CornerRef& corner : faces.corners) output.corner_uvs.push_back(out.uvs[corner.chart][corner.vertex]);
   ChartSet set = split_charts(output, Joining::Exact);
-  require_valid(input, output, set, out.stored, cut);
+  // Where the charts are others than before they are refused below.
+  const Freedoms freedom_after = set.charts.size() == freedom.size() ? freedom : Freedoms{};
+  excuse_fixed(set, freedom_after);
+  require_valid(input, output, set, freedom_after, out.stored, cut);
   stretch_to_texture(set.charts, options.box_aspect);
   out.after = measure_split(set, options.box_aspect);
+  measure_in_texture(set.charts, freedom_after, input.origin, options.box_aspect, out.after);
   for (std::size_t p = 0; p < out.stored.size(); ++p) out.stored[p].uvs = out.uvs[p];
   stretch_to_texture(out.stored, options.box_aspect);
-  require_gap(output, out.stored, gap, options.box_aspect);
+  require_gap(output, out.stored, freedom, gap, options.box_aspect);
   // The same triangles in the same order as the input's: only then can E_2 be told.
   out.after.distortion_to_input = dirichlet_sums_between(pieces_of_input(input, atlas), out.stored).best_energy();
   out.charts = chart_reports(input, out.stored, charts_of(atlas));

@@ -88,8 +88,8 @@ Measures measure_split(const ChartSet& set, double box_aspect) {
 
 Validity validate(const Atlas& atlas) { return validate_split(split_charts(atlas)); }
 
-Validity validate_split(const ChartSet& set) {
-  Validity validity = certify_charts(charts_as_placed(set), set.points);
+Validity validate_split(const ChartSet& set, const Freedoms& freedom) {
+  Validity validity = certify_charts(charts_as_placed(set), set.points, freedom);
   // Faces count here, and an n-gon counts where its outline crosses itself though some triangulation of it were positive.
   validity.flipped_faces = static_cast<int>(set.defects.size());
   for (std::size_t k = set.mirrored.size(); k-- > 0;) {

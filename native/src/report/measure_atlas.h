@@ -2,6 +2,7 @@
 #pragma once
 
 #include "atlas_refine/measures.h"
+#include "geometry/freedom.h"
 #include "input/join_edges.h"
 #include "input/split_charts.h"
 
@@ -35,6 +36,6 @@ void stretch_to_texture(std::vector<Chart>& charts, double box_aspect);
 /// All of Measures but seams and distortion_to_input, which is 1. The charts are in units of the texture.
 Measures measure_split(const ChartSet& set, double box_aspect);
 
-Validity validate_split(const ChartSet& set);
+Validity validate_split(const ChartSet& set, const Freedoms& freedom = {});
 
 }  // namespace atlas_refine

@@ -1,10 +1,15 @@
 // Repairs in words.
 #include "report/note_repairs.h"
 
+#include "report/locked.h"
+
 namespace atlas_refine {
 
 RepairOptions repair_options(const Refinement& run) {
-  return {.space_points = &run.input.set.points, .open_closed = run.options.open_closed, .threads = run.threads};
+  return {.space_points = &run.input.set.points,
+          .freedom = freedom_of(run.input.set, run.options),
+          .open_closed = run.options.open_closed,
+          .threads = run.threads};
 }
 
 std::vector<int> note_repairs(const Refinement& run, const RepairedCharts& repaired) {

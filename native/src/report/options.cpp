@@ -34,6 +34,7 @@ void check_kept(const Atlas& atlas, const RefineOptions& options) {
   for (const Vec2& origin : options.group_origins) require(origin.allFinite(), "group origins must be finite");
   check_size(atlas, options.keep_shape, "keep_shape must hold one flag per face");
   check_size(atlas, options.locked, "locked must hold one flag per face");
+  require(!options.align_axes || options.rotate != Rotate::None, "charts that may not be turned cannot be aligned with the axes");
   check_edges(atlas, options.no_seam, "no_seam names a vertex that the mesh does not have");
   check_edges(atlas, options.prefer_seam, "prefer_seam names a vertex that the mesh does not have");
 }

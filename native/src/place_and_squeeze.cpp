@@ -1,0 +1,241 @@
+// Place, squeeze.
+#include "place_and_squeeze.h"
+
+#include <cmath>
+
+#include "atlas_refine/error.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+#include "pack/place_charts.h"
+#include "reduce/goal.h"
+#include "reduce/squeeze.h"
+#include "repair/part_touching.h"
+#include "report/locked.h"
+
+namespace atlas_refine {
+namespace {
+
+constexpr double kRoughly = 0.75;       // of the bound: a packing good enough to compare with
+constexpr double kNearly = 0.9;         // of the bound: a packing good enough to be relaxed from
+constexpr double kRounding = 1 + 1e-6;  // storing single precision must not lose the bound
+
+Box box_of(const PlacedCharts& placed, double aspect) {
+  return placed.has_frame() ? Box{Vec2::Zero(), placed.frame} : box_of_aspect(uv_box(placed.charts), aspect);
+}
+
+double packing_efficiency(const PlacedCharts& placed, double aspect) {
+  const Box box = box_of(placed, aspect);
+  if (!placed.has_frame()) return uv_area(placed.charts) / box.area();
+  double area = 0;
+  for (const Chart& chart : placed.charts) area += area_within(chart, box);
+  return area / box.area();
+}
+
+bool gap_kept(const PlacedCharts& placed, const Freedoms& freedom, const Gap& gap, double aspect) {
+  return gap_between_charts(placed.charts, freedom) >= kStartGap * gap.length(box_of(placed, aspect).size());
+}
+
+std::vector<Chart> movable_of(const std::vector<Chart>& charts, const Freedoms& freedom) {
+  std::vector<Chart> out;
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    if (!is_fixed(freedom, c)) out.push_back(charts[c]);
+  }
+  return out;
+}
+
+/// The artist's layout, which is valid, at the size that the charts have in `charts`; nothing where it is no start.
+std::optional<PlacedCharts> own_layout(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom,
+                                       const Gap& gap) {
+  const double aspect = run.options.box_aspect;
+  PlacedCharts own{.charts = charts};
+  if (any_fixed(freedom)) {
+    own.charts = run.input.set.charts;
+    if (!lies_in_texture(own.charts, freedom, aspect)) return std::nullopt;
+    const double scale = std::sqrt(uv_area(movable_of(charts, freedom)) / uv_area(movable_of(own.charts, freedom)));
+    own.frame = scale * Vec2(aspect, 1);
+    for (Chart& chart : own.charts) {
+      for (Vec2& uv : chart.uvs) uv *= scale;
+    }
+  }
+  if (!gap_kept(own, freedom, gap, aspect)) return std::nullopt;
+  return own;
+}
+
+/// The packer's layout and, where it is a valid start, the artist's: of a large atlas only the tighter one is tried.
+std::vector<PlacedCharts> starts_of(const Refinement& run, const std::optional<PlacedCharts>& own, const PlacedCharts& placed) {
+  constexpr std::size_t kLarge = 30000;
+  if (!own) return {placed};
+  std::size_t triangles = 0;
+  for (const Chart& chart : own->charts) triangles += chart.triangles.size();
+  if (triangles <= kLarge) return {placed, *own};
+  const double aspect = run.options.box_aspect;
+  return {packing_efficiency(*own, aspect) > packing_efficiency(placed, aspect) ? *own : placed};
+}
+
+std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts) {
+  std::vector<std::vector<Vec2>> out;
+  out.reserve(charts.size());
+  for (const Chart& chart : charts) out.push_back(chart.uvs);
+  return out;
+}
+
+PlacedCharts place(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap,
+                   double good_enough) {
+  const PlaceOptions options{.gap = gap,
+                             .box_aspect = run.options.box_aspect,
+                             .target_pe = good_enough,
+                             .seed = run.options.seed,
+                             .threads = run.threads,
+                             .rotate = run.options.rotate,
+                             .align_axes = run.options.align_axes};
+  if (!any_fixed(freedom)) return {.charts = place_charts(charts, options, run.monitor)};
+  auto placed = place_around(charts, freedom, options, run.monitor);
+  if (!placed)
+    throw RefineError(
+        ErrorCode::BoundNotReached, "pack",
+        "the locked charts leave the others no room" + words_on_kept(run.input.set.charts, freedom, options.box_aspect));
+  return std::move(*placed);
+}
+
+std::vector<Gap> gaps_of(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom) {
+  const RefineOptions& options = run.options;
+  if (options.gap) return {*options.gap};
+  if (!any_fixed(freedom)) return automatic_gaps(charts, options.pe_bound, options.box_aspect);
+  const Box texture{Vec2::Zero(), Vec2(options.box_aspect, 1)};
+  double taken = 0;
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    if (is_fixed(freedom, c)) taken += area_within(charts[c], texture);
+  }
+  return automatic_gaps(movable_of(charts, freedom), options.pe_bound, options.box_aspect, taken / texture.area());
+}
+
+void warn_of_gap(const Refinement& run, const Gap& gap, const std::string& why) {
+  if (run.options.gap || gap.value >= Gap{}.value) return;
+  run.journal.warnings.push_back("the gap was reduced from " + number_text("%g", Gap{}.value) + " to " +
+                                 number_text("%g", gap.value) + " of the box diagonal: " + why);
+}
+
+Squeezed squeeze_from(const Refinement& run, const CutAtlas& atlas, const std::vector<PlacedCharts>& starts,
+                      const Freedoms& freedom, const std::vector<Gap>& gaps, double max_distortion) {
+  const SqueezeOptions options{.pe_bound = run.options.pe_bound,
+                               .box_aspect = run.options.box_aspect,
+                               .gaps = gaps,
+                               .max_distortion = max_distortion,
+                               .threads = run.threads,
+                               .freedom = freedom};
+  Squeezed squeezed = squeeze(starts, goal_of(run.input.set.charts, atlas, run.options), options, run.monitor);
+  run.journal.iterations += squeezed.iterations;
+  return squeezed;
+}
+
+void squeeze_into(const Refinement& run, const std::vector<PlacedCharts>& starts, const Freedoms& freedom,
+                  const std::vector<Gap>& gaps, Solution& out) {
+  const Squeezed best = squeeze_from(run, out.atlas, starts, freedom, gaps, run.options.max_distortion.value_or(0));
+  if (!none_bends(freedom)) out.intervention = Intervention::Squeezed;
+  out.atlas = with_uvs(std::move(out.atlas), best.outcome.uvs);
+  out.atlas.frame = best.outcome.frame;
+  out.gap = best.gap;
+  out.ended = ended_of(best.outcome.status);
+  out.price = best.outcome.price;
+  warn_of_gap(run, best.gap, best.gap_note);
+}
+
+/// The box that charts need grows with their area and half the gap around them: PE at another gap, from that at one.
+double likely_pe(const Refinement& run, const PlacedCharts& placed, const Freedoms& freedom, const Gap& gap, const Gap& other) {
+  const std::vector<Chart> movable = movable_of(placed.charts, freedom);
+  const Vec2 box = box_of(placed, run.options.box_aspect).size();
+  const auto grown = [&](const Gap& g) { return uv_area(movable) + 0.5 * g.length(box) * uv_perimeter(movable); };
+  return packing_efficiency(placed, run.options.box_aspect) * grown(gap) / grown(other);
+}
+
+/// Placed with the first gap or, where no chart bends, with the first with which placing them is enough, if there is one.
+PlacedCharts place_with(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, double good_enough,
+                        std::vector<Gap>& gaps) {
+  constexpr double kPromising = 0.99;  // of the bound
+  PlacedCharts placed = place(run, charts, freedom, gaps.front(), good_enough);
+  if (!none_bends(freedom) || holds_bound(run, placed, kRounding)) return placed;
+  for (std::size_t k = 1; k < gaps.size(); ++k) {
+    if (likely_pe(run, placed, freedom, gaps.front(), gaps[k]) < kPromising * run.options.pe_bound) continue;
+    PlacedCharts closer = place(run, charts, freedom, gaps[k], run.options.pe_bound);
+    if (!holds_bound(run, closer, kRounding)) continue;
+    gaps.erase(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(k));
+    return closer;
+  }
+  return placed;
+}
+
+/// Borders that touch at a vertex (a pinch) may stay so where charts are but moved; no barrier can start from contact.
+bool part_pinches(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts) {
+  std::vector<int> parted;
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    if (!bends(freedom, c) || certify_charts({charts[c]}).valid()) continue;
+    if (auto apart = part_touching(charts[c])) charts[c] = std::move(*apart);
+    parted.push_back(charts[c].number);
+  }
+  if (parted.empty()) return false;
+  run.journal.repairs.push_back({.what = "touched itself at a vertex, parted there", .charts = parted});
+  return true;
+}
+
+Freedoms freedom_of_pieces(const Refinement& run, const CutAtlas& atlas) {
+  const Freedoms of_charts = freedom_of(run.input.set, run.options);
+  Freedoms out;
+  if (of_charts.empty()) return out;
+  for (const Piece& piece : atlas.pieces) out.push_back(of_charts[piece.chart]);
+  return out;
+}
+
+}  // namespace
+
+bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare) {
+  const RefineOptions& options = run.options;
+  const bool allowed = !options.max_distortion || dirichlet_sums(placed.charts).best_energy() <= *options.max_distortion;
+  return allowed && packing_efficiency(placed, options.box_aspect) >= spare * options.pe_bound;
+}
+
+Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool keeps_place, const ProgressRange& range) {
+  const RefineOptions& options = run.options;
+  const Freedoms freedom = freedom_of_pieces(run, atlas);
+  const auto points = points_in_space(atlas, run.input.set.points);
+  std::vector<Chart> pieces = meshes_of(atlas);
+  run.journal.begin_stage("pack", range.part(0, 0.25));
+  std::vector<Gap> gaps = gaps_of(run, pieces, freedom);
+  const double good_enough = options.relax && !atlas.seams.empty() ? kNearly * options.pe_bound : options.pe_bound;
+  PlacedCharts placed = place_with(run, pieces, freedom, good_enough, gaps);
+  if (const Validity valid = certify_charts(placed.charts, points, freedom); !valid.valid())
+    throw RefineError(ErrorCode::BadInput, "pack", "charts could not be placed apart: " + valid.problem, valid.chart, valid.face);
+  run.journal.show("placed", placed.charts);
+  Solution out{.atlas = with_uvs(atlas, uvs_of(placed.charts)), .gap = gaps.front()};
+  out.atlas.frame = placed.frame;
+  if (holds_bound(run, placed, kRounding) && !(options.relax && !none_bends(freedom))) {
+    warn_of_gap(run, out.gap, kNoRoom);
+    return out;
+  }
+
+  if (part_pinches(run, freedom, pieces)) {
+    placed = place_with(run, pieces, freedom, good_enough, gaps);
+    out.atlas = with_uvs(std::move(out.atlas), uvs_of(placed.charts));
+    out.atlas.frame = placed.frame;
+  }
+  run.journal.begin_stage("squeeze", range.part(0.25, 1));
+  std::optional<PlacedCharts> own;
+  if (keeps_place && !options.align_axes && certify_charts(pieces, {}, freedom).valid())
+    own = own_layout(run, pieces, freedom, gaps.front());
+  squeeze_into(run, starts_of(run, own, placed), freedom, gaps, out);
+  return out;
+}
+
+std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas& atlas, bool keeps_place, double most) {
+  const Freedoms freedom = freedom_of_pieces(run, atlas);
+  const std::vector<Chart> pieces = meshes_of(atlas);
+  const std::vector<Gap> gaps = gaps_of(run, pieces, freedom);
+  // The artist's layout spares a packing.
+  std::optional<PlacedCharts> start;
+  if (keeps_place) start = own_layout(run, pieces, freedom, gaps.front());
+  if (!start) start = place(run, pieces, freedom, gaps.front(), kRoughly * run.options.pe_bound);
+  const ReduceResult result = squeeze_from(run, atlas, {*start}, freedom, gaps, most).outcome;
+  if (!result.reached || !result.within_limit) return std::nullopt;
+  return result.distortion;
+}
+
+}  // namespace atlas_refine
