@@ -21,7 +21,7 @@ LEVELS = [
     ["input", "pack", "align", "layout", "reduce"],
     ["repair"],
     ["report"],
-    ["rectangle_pictures"],
+    ["rectangle_pictures", "place_and_squeeze"],
     ["rectangles", "whole"],
     ["one_atlas"],
     ["refine", "group_by_tile"],

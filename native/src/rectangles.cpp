@@ -1,16 +1,22 @@
 // The three steps of the paper, one after the other.
 #include "rectangles.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 #include "align/align.h"
 #include "cut/boundary_places.h"
 #include "cut/restore_faces.h"
+#include "input/price_sides.h"
+#include "layout/edge_paths.h"
 #include "layout/place_pieces.h"
 #include "layout/search_layout.h"
 #include "layout/trail_paths.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
+#include "place_and_squeeze.h"
 #include "rectangle_pictures.h"
 #include "reduce/goal.h"
 #include "repair/re_embed.h"
@@ -61,14 +67,15 @@ void embed_broken_polygons(const Refinement& run, std::vector<Chart>& charts, st
 
 /// Axis-aligned charts at their wanted densities. Those that are left as they are lie in the layout as they are: they must not
 /// overlap themselves.
-AlignedCharts align(const Refinement& run, std::vector<Chart>& charts, std::vector<int>& embedded) {
-  const AlignOptions options{run.options.rectangles.sigma, run.threads};
+AlignedCharts align(const Refinement& run, const std::vector<SidePrices>& prices, std::vector<Chart>& charts,
+                    std::vector<int>& embedded) {
+  const AlignOptions options{run.options.rectangles.sigma, run.threads, prices};
   AlignedCharts aligned = align_charts(charts, options, run.monitor);
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
     if (aligned[c].way != AxisAlignedChart::Way::AsItIs || certify_charts({charts[c]}).valid()) continue;
     embed(run, c, charts, embedded);
     set_density(charts, wanted_density(run.input.set.charts, run.options.density), run.options.density);
-    aligned[c] = std::move(align_charts({charts[c]}, options, run.monitor).front());
+    aligned[c] = std::move(align_charts({charts[c]}, {options.sigma, options.threads, {prices[c]}}, run.monitor).front());
   }
   const std::vector<double> wanted = wanted_density(run.input.set.charts, run.options.density);
   for (std::size_t c = 0; c < aligned.size(); ++c) {
@@ -124,6 +131,36 @@ CutAtlas cut_along_trails(const Refinement& run, const AlignedCharts& aligned, c
   return cut_along(divided_atlas(traced.meshes, charts, points), charts, traced.paths);
 }
 
+/// How many edges that must stay whole the cuts run along or across.
+int forbidden_edges_cut(const std::vector<Chart>& charts, const std::vector<SidePrices>& prices, const CutAtlas& cut) {
+  using ChartEdge = std::tuple<int, int, int>;  // chart, lower and higher vertex
+  std::set<ChartEdge> forbidden, hit;
+  for (int c = 0; c < static_cast<int>(prices.size()); ++c) {
+    for (std::size_t t = 0; t < prices[c].size(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax(charts[c].triangles[t][k], charts[c].triangles[t][(k + 1) % 3]);
+        if (prices[c][t][k] == kNoSeam) forbidden.insert({c, low, high});
+      }
+    }
+  }
+  const auto note = [&](int chart, const std::set<int>& vertices) {
+    const ChartEdge edge{chart, *vertices.begin(), *vertices.rbegin()};
+    if (vertices.size() == 2 && forbidden.contains(edge)) hit.insert(edge);
+  };
+  for (const Seam& seam : cut.seams) {
+    std::set<int> both;
+    for (int end : seam.ends) {
+      std::set<int> own = {end};
+      if (end < 0) own = {cut.points[~end].support.vertices.begin(), cut.points[~end].support.vertices.end()};
+      own.erase(-1);
+      note(seam.chart, own);
+      both.insert(own.begin(), own.end());
+    }
+    note(seam.chart, both);
+  }
+  return static_cast<int>(hit.size());
+}
+
 /// The pieces where the layout wants them, a little further apart as far as the bound allows: pieces that touch block each
 /// other's first steps.
 void place(const Refinement& run, const Layout& layout, CutAtlas& cut) {
@@ -170,34 +207,71 @@ void restore(const std::vector<Chart>& charts, CutAtlas& cut) {
   for (Piece& piece : cut.pieces) restore_faces(piece, charts[piece.chart], scale);
 }
 
-}  // namespace
+bool has_trails(const Layout& layout) {
+  return std::any_of(layout.trails.begin(), layout.trails.end(), [](const auto& trails) { return !trails.empty(); });
+}
 
-Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) {
-  const RefineOptions& options = run.options;
-  Journal& journal = run.journal;
-  Solution out{.intervention = Intervention::Cut};
-  std::vector<Chart> charts = run.input.set.charts;
-  journal.begin_stage("embed", range.part(0, 0.03));
-  embed_broken_polygons(run, charts, out.re_embedded);
-  set_density(charts, wanted_density(run.input.set.charts, options.density), options.density);
-  const double enough = options.rectangles.until_input ? energy_of_input(run, charts) : 0;
-
-  journal.begin_stage("align", range.part(0.03, 0.35));  // section 3.1
-  const AlignedCharts aligned = align(run, charts, out.re_embedded);
-
-  journal.begin_stage("layout", range.part(0.35, 0.45));  // section 3.2
-  const Layout layout = search_layout(aligned, charts, layout_options(run), run.monitor);
-  out.atlas = cut_along_trails(run, aligned, charts, layout);
-  if (out.atlas.seams.empty()) return {.needless = true};
-  if (journal.draws()) {
-    for (const auto& picture : rectangle_pictures(charts, aligned, layout.trails, options.rectangles.sigma))
-      journal.show(picture);
+/// The charts that are wanted cut and are not.
+std::vector<int> charts_left_whole(const Refinement& run, const Layout& layout, const CutAtlas& cut) {
+  std::vector<int> pieces(layout.trails.size(), 0), out;
+  for (const Piece& piece : cut.pieces) ++pieces[piece.chart];
+  for (int c = 0; c < static_cast<int>(pieces.size()); ++c) {
+    if (pieces[c] == 1 && !layout.trails[c].empty()) out.push_back(run.input.set.charts[c].number);
   }
+  return out;
+}
+
+/// Parts of charts that overlap themselves may do so too.
+void embed_pieces(const Refinement& run, CutAtlas& cut, std::vector<int>& embedded) {
+  const std::vector<double> wanted = wanted_density(run.input.set.charts, run.options.density);
+  for (Piece& piece : cut.pieces) {
+    if (certify_charts({piece.mesh}).valid()) continue;
+    const int number = run.input.set.charts[piece.chart].number;
+    piece.mesh = re_embed(piece.mesh, number, run.threads, run.monitor);
+    for (Vec2& uv : piece.mesh.uvs) uv *= wanted[piece.chart];
+    if (embedded.empty() || embedded.back() != piece.chart)
+      run.journal.repairs.push_back({.what = "a part overlapped or touched itself, embedded anew", .charts = {number}});
+    embedded.push_back(piece.chart);
+  }
+}
+
+/// What is known before the cuts.
+struct CutPlan {
+  std::vector<Chart> charts;  ///< free of flips, at their wanted densities
+  std::vector<SidePrices> prices;
+  AlignedCharts aligned;
+  Layout layout;
+  std::vector<int> embedded;  ///< charts
+  double enough = 0;          ///< the objective where the paper stops, 0 = at the optimum
+};
+
+CutPlan plan_cuts(const Refinement& run, const ProgressRange& range) {
+  const RefineOptions& options = run.options;
+  CutPlan plan{.charts = run.input.set.charts};
+  run.journal.begin_stage("embed", range.part(0, 0.07));
+  embed_broken_polygons(run, plan.charts, plan.embedded);
+  set_density(plan.charts, wanted_density(run.input.set.charts, options.density), options.density);
+  if (options.rectangles.until_input) plan.enough = energy_of_input(run, plan.charts);
+
+  run.journal.begin_stage("align", range.part(0.07, 0.78));  // section 3.1
+  plan.prices = price_sides(run.input.atlas, run.input.set, options);
+  plan.aligned = align(run, plan.prices, plan.charts, plan.embedded);
+
+  run.journal.begin_stage("layout", range.part(0.78, 1));  // section 3.2
+  plan.layout = search_layout(plan.aligned, plan.charts, layout_options(run), run.monitor);
+  return plan;
+}
+
+/// Faces are divided where trails cross them; pieces are rectangles.
+Attempt cut_across_faces(const Refinement& run, CutPlan plan, const ProgressRange& range) {
+  const auto& [charts, prices, aligned, layout, embedded, enough] = plan;
+  Solution out{.intervention = Intervention::Cut, .atlas = cut_along_trails(run, aligned, charts, layout)};
+  if (out.atlas.seams.empty()) return {.needless = true};
   place(run, layout, out.atlas);
   const Validity start = certify_charts(meshes_of(out.atlas));
   if (!start.valid()) return {.failure = "in their layout " + start.problem};
 
-  journal.begin_stage("reduce", range.part(0.45, 1));  // section 3.3
+  run.journal.begin_stage("reduce", range);  // section 3.3
   Gap wide = layout.gap;
   wide.value *= kFirstGap;
   ReduceResult reduced = reduce(run, wide, kFirstChange, enough, out.atlas);
@@ -210,9 +284,46 @@ Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) 
   out.gap = layout.gap;
   out.ended = ended_of(reduced.status);
   out.price = reduced.price;
+  out.re_embedded = embedded;
   out.rectangles = report_of(aligned, layout);
   tell(run, aligned, layout, *out.rectangles);
+  if (const int cut = forbidden_edges_cut(charts, prices, out.atlas); cut > 0)
+    run.journal.warnings.push_back("cuts run along or across " + std::to_string(cut) + (cut == 1 ? " edge" : " edges") +
+                                   " where no seam is wanted");
   return {.solution = std::move(out)};
+}
+
+/// Cut along the edges of polygons; no face is divided. Differs from section 4.1: parts keep the shapes that they have in the
+/// input's UVs instead of becoming rectangles, and are packed by their outlines.
+Attempt cut_along_edges(const Refinement& run, CutPlan plan, const ProgressRange& range) {
+  const auto paths =
+      edge_paths(plan.aligned, plan.charts, trace_trails(plan.aligned, plan.layout.trails), plan.prices, run.threads);
+  if (paths.empty()) return {.needless = !has_trails(plan.layout), .failure = "along edges no more than slivers can be cut off"};
+  CutAtlas cut = cut_along(whole_atlas(plan.charts), plan.charts, paths);
+  embed_pieces(run, cut, plan.embedded);
+  RefineOptions options = run.options;
+  options.relax = options.relax || !options.rectangles.until_input;
+  Solution out = place_and_squeeze({run.input, options, run.monitor, run.journal, run.threads}, cut, false, range);
+  if (!holds_bound(run, meshes_of(out.atlas))) return {.failure = "cut along edges, they do not reach the bound"};
+  out.intervention = Intervention::Cut;
+  out.re_embedded = std::move(plan.embedded);
+  out.rectangles = report_of(plan.aligned, plan.layout);
+  out.rectangles->holes_cut = 0;
+  if (const std::vector<int> whole = charts_left_whole(run, plan.layout, cut); !whole.empty())
+    run.journal.fallbacks.push_back(charts_named(whole) + ": along edges no more than slivers can be cut off; left whole");
+  return {.solution = std::move(out)};
+}
+
+}  // namespace
+
+Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) {
+  CutPlan plan = plan_cuts(run, range.part(0, 0.45));
+  if (run.journal.draws()) {
+    for (const auto& picture : rectangle_pictures(plan.charts, plan.aligned, plan.layout.trails, run.options.rectangles.sigma))
+      run.journal.show(picture);
+  }
+  const bool along_edges = run.options.cut == Cut::Edges;
+  return (along_edges ? cut_along_edges : cut_across_faces)(run, std::move(plan), range.part(0.45, 1));
 }
 
 }  // namespace atlas_refine

@@ -6,6 +6,7 @@
 #include "input/take_part.h"
 #include "one_atlas.h"
 #include "report/assemble.h"
+#include "report/kept_faces.h"
 #include "report/options.h"
 #include "report/outcome.h"
 #include "support/monitor.h"
@@ -58,11 +59,12 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   RefineResult result;
   summarise(whole, participants, options, done, result);
   tell_of(participants, done, journal);
-  AssembledAtlas assembled = assemble(whole, participants, refined_parts(done));
+  AssembledAtlas assembled = assemble(whole, participants, refined_parts(done), divides_faces(options));
   measure_seams(atlas, join_edges(atlas), result.before);
   measure_seams(assembled.mesh, join_edges(assembled.mesh), result.after);
   result.corner_uvs = std::move(assembled.mesh.corner_uvs);
   result.cut = std::move(assembled.cut);
+  result.new_seams = std::move(assembled.new_seams);
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "cut/match_pieces.h"
 #include "report/cut_faces.h"
+#include "report/kept_faces.h"
 
 namespace atlas_refine {
 namespace {
@@ -141,13 +142,14 @@ void add_untouched(const InputAtlas& whole, Whole& out) {
   }
 }
 
-/// The input's faces, the UVs of its corners from the pieces, which are whole charts.
-AssembledAtlas uncut(const InputAtlas& whole, const Whole& pieces) {
-  AssembledAtlas out{whole.atlas, std::nullopt};
-  for (std::size_t c = 0; c < out.mesh.corner_uvs.size(); ++c) {
-    const CornerRef& corner = whole.set.corners[c];
-    for (const int p : pieces.pieces_of[corner.chart]) out.mesh.corner_uvs[c] = pieces.uvs[p][corner.vertex];
+/// The input's faces, the UVs of its corners from the pieces.
+AssembledAtlas kept(const InputAtlas& whole, const Whole& pieces) {
+  AssembledAtlas out{whole.atlas};
+  const std::vector<CornerRef> corners = corners_on_pieces(whole.atlas, whole.set, pieces.atlas);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    if (corners[c].chart >= 0) out.mesh.corner_uvs[c] = pieces.uvs[corners[c].chart][corners[c].vertex];
   }
+  out.new_seams = seams_as_vertices(whole.atlas, whole.set, pieces.atlas);
   return out;
 }
 
@@ -169,7 +171,8 @@ AssembledAtlas divided(const InputAtlas& whole, bool several, Whole& pieces) {
 
 }  // namespace
 
-AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts) {
+AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts,
+                        bool divide) {
   const std::vector<Chart>& charts = whole.set.charts;
   Whole pieces{.atlas = {}, .uvs = {}, .own = {}, .pieces_of = std::vector<std::vector<int>>(charts.size())};
   for (const RefinedPart& part : parts) {
@@ -178,7 +181,7 @@ AssembledAtlas assemble(const InputAtlas& whole, const Participants& participant
   for (const Follower& follower : participants.followers) follow(follower, charts, pieces);
   const bool cut = !pieces.atlas.seams.empty() || !pieces.atlas.points.empty();
   const bool several = parts.size() > 1 || !participants.left.empty() || !participants.followers.empty();
-  return cut ? divided(whole, several, pieces) : uncut(whole, pieces);
+  return cut && divide ? divided(whole, several, pieces) : kept(whole, pieces);
 }
 
 }  // namespace atlas_refine

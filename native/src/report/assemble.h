@@ -20,12 +20,14 @@ struct RefinedPart {
 };
 
 struct AssembledAtlas {
-  Atlas mesh;                  ///< as it comes out
-  std::optional<CutMesh> cut;  ///< where some part was cut
+  Atlas mesh;                                      ///< as it comes out
+  std::optional<CutMesh> cut = {};                 ///< where some part was cut across faces
+  std::vector<std::array<int, 2>> new_seams = {};  ///< pairs of the input's vertices, where cuts ran along its edges
 };
 
 /// Followers get the UVs, and the cuts, of their leaders; charts of no part keep their own UVs, bit for bit. Where some part is
-/// cut all of its followers must have the triangles of their leaders.
-AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts);
+/// cut all of its followers must have the triangles of their leaders. `divide`: cuts may divide faces.
+AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts,
+                        bool divide);
 
 }  // namespace atlas_refine

@@ -1,0 +1,21 @@
+// Where the roads meet: the pieces of an atlas placed anew, and bent as far as the bound needs.
+#pragma once
+
+#include <optional>
+
+#include "report/solution.h"
+
+namespace atlas_refine {
+
+/// `atlas`: pieces at their wanted densities, each free of flips and crossings by itself. `keeps_place`: they may also start
+/// where they lie. The result is only moved where that holds the bound, unless `run.options.relax`. Throws RefineError(BadInput)
+/// where they cannot be placed apart.
+Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool keeps_place, const ProgressRange& range);
+
+/// They reach the bound times `spare`, within the largest distortion allowed.
+bool holds_bound(const Refinement& run, const std::vector<Chart>& placed, double spare = 1);
+
+/// E_d that these pieces would have at the bound, roughly; nothing where that is above `most`.
+std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas& atlas, bool keeps_place, double most);
+
+}  // namespace atlas_refine
