@@ -46,7 +46,20 @@ std::set<Edge> new_seams(const RefineResult& result) {
   return out;
 }
 
-/// Refines and checks: no face divided, the new seams are exactly the edges that are torn, all else as always.
+/// No face divided, and the new seams are exactly the edges that are torn.
+std::set<Edge> expect_mesh_kept(const Atlas& atlas, const RefineResult& result) {
+  EXPECT_FALSE(result.cut.has_value());
+  EXPECT_EQ(result.corner_uvs.size(), atlas.corner_uvs.size());
+  std::set<Edge> torn;
+  const std::set<Edge> before = whole_edges(atlas, atlas.corner_uvs), left = whole_edges(atlas, result.corner_uvs);
+  std::set_difference(before.begin(), before.end(), left.begin(), left.end(), std::inserter(torn, torn.end()));
+  EXPECT_EQ(new_seams(result), torn);
+  EXPECT_EQ(result.new_seams.size(), torn.size()) << "a seam is named twice";
+  EXPECT_EQ(result.intervention == Intervention::Cut, !torn.empty());
+  return torn;
+}
+
+/// Refines and checks: the mesh is kept, all else as always.
 RefineResult cut_soundly(const Atlas& atlas, const RefineOptions& options) {
   RefineResult result;
   try {
@@ -55,8 +68,7 @@ RefineResult cut_soundly(const Atlas& atlas, const RefineOptions& options) {
     ADD_FAILURE() << to_string(error.code()) << ": " << error.what();
     return result;
   }
-  EXPECT_FALSE(result.cut.has_value());
-  EXPECT_EQ(result.corner_uvs.size(), atlas.corner_uvs.size());
+  const std::set<Edge> torn = expect_mesh_kept(atlas, result);
   const Atlas after = testing::with_corner_uvs(atlas, result.corner_uvs);
   const Validity validity = validate(after);
   EXPECT_TRUE(validity.valid()) << validity.problem;
@@ -68,12 +80,6 @@ RefineResult cut_soundly(const Atlas& atlas, const RefineOptions& options) {
   if (m.chart_count > 1 && result.gap.value > 0) {
     EXPECT_GE(testing::gap_in_unit(m, result.gap, options.box_aspect), result.gap.value * (1 - 1e-9));
   }
-  std::set<Edge> torn;
-  const std::set<Edge> before = whole_edges(atlas, atlas.corner_uvs), left = whole_edges(atlas, result.corner_uvs);
-  std::set_difference(before.begin(), before.end(), left.begin(), left.end(), std::inserter(torn, torn.end()));
-  EXPECT_EQ(new_seams(result), torn);
-  EXPECT_EQ(result.new_seams.size(), torn.size()) << "a seam is named twice";
-  EXPECT_EQ(result.intervention == Intervention::Cut, !torn.empty());
   EXPECT_EQ(result.pieces.size(), torn.empty() ? 0 : static_cast<std::size_t>(m.chart_count));
   return result;
 }
@@ -203,6 +209,28 @@ TEST(RefineEdges, KeptDensitiesAreTheInputs) {
   options.density = Density::Keep;
   const RefineResult result = cut_soundly(atlas, options);
   for (const ChartReport& chart : result.charts) EXPECT_NEAR(chart.density_after / chart.density_before, 1, 0.05);
+}
+
+TEST(RefineEdges, AStackIsCutAtTheSameEdges) {
+  const Atlas sheet = testing::quads(testing::l_cells(4));
+  const RefineResult result = refine(shapes::combine({sheet, sheet}), along_edges());
+  const std::set<Edge> torn = expect_mesh_kept(shapes::combine({sheet, sheet}), result);
+  ASSERT_EQ(result.charts[1].fate, Fate::Stacked);
+  const std::size_t corners = sheet.corner_uvs.size();
+  EXPECT_EQ(torn.size(), 8);
+  for (std::size_t c = 0; c < corners; ++c) EXPECT_EQ(result.corner_uvs[c], result.corner_uvs[corners + c]);
+}
+
+TEST(RefineEdges, GroupsAreCutEachByItself) {
+  const Atlas sheet = testing::quads(testing::l_cells(4));
+  const Atlas both = shapes::combine({sheet, testing::bricks(testing::l_cells(4))});
+  RefineOptions options = along_edges();
+  options.groups.assign(both.face_count(), 1);
+  std::fill(options.groups.begin(), options.groups.begin() + sheet.face_count(), 0);
+  const RefineResult result = refine(both, options);
+  expect_mesh_kept(both, result);
+  ASSERT_EQ(result.groups.size(), 2);
+  for (const GroupReport& group : result.groups) EXPECT_EQ(group.intervention, Intervention::Cut);
 }
 
 TEST(RefineEdges, EdgesThatAreNoVerticesAreRefused) {
