@@ -221,14 +221,15 @@ std::vector<int> charts_left_whole(const Refinement& run, const Layout& layout, 
   return out;
 }
 
-/// Parts of charts that overlap themselves may do so too.
+/// Parts of charts that overlap themselves may do so too. They keep their area.
 void embed_pieces(const Refinement& run, CutAtlas& cut, std::vector<int>& embedded) {
-  const std::vector<double> wanted = wanted_density(run.input.set.charts, run.options.density);
   for (Piece& piece : cut.pieces) {
     if (certify_charts({piece.mesh}).valid()) continue;
     const int number = run.input.set.charts[piece.chart].number;
+    const double area = uv_area(piece.mesh);
     piece.mesh = re_embed(piece.mesh, number, run.threads, run.monitor);
-    for (Vec2& uv : piece.mesh.uvs) uv *= wanted[piece.chart];
+    const double scale = std::sqrt(area / uv_area(piece.mesh));
+    for (Vec2& uv : piece.mesh.uvs) uv *= scale;
     if (embedded.empty() || embedded.back() != piece.chart)
       run.journal.repairs.push_back({.what = "a part overlapped or touched itself, embedded anew", .charts = {number}});
     embedded.push_back(piece.chart);
