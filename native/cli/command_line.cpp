@@ -103,6 +103,12 @@ void add_goal(CLI::App& app, RefineOptions& options) {
         if (v.text != "none" && v.text != "rectangles") v.refuse("must be 'none' or 'rectangles'");
         options.seams = v.text == "none" ? Seams::None : Seams::Rectangles;
       });
+  add(app, "--cut", "split|edges",
+      "How cuts run: across faces, which are divided, or along edges of IN's faces, which keeps its mesh exactly [split]",
+      [&](const Value& v) {
+        if (v.text != "split" && v.text != "edges") v.refuse("must be 'split' or 'edges'");
+        options.cut = v.text == "edges" ? Cut::Edges : Cut::Split;
+      });
   add(app, "--aspect", "free|square|W:H", aspect_help, [&](const Value& v) { options.box_aspect = aspect(v); });
   add_flag(
       app, "--relax", options.relax,

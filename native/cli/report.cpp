@@ -63,6 +63,7 @@ Json to_json(const CommandLine& line) {
   const RefineOptions& o = line.options;
   return {{"pe_bound", o.pe_bound},
           {"seams", o.seams == Seams::Rectangles ? "rectangles" : "none"},
+          {"cut", o.cut == Cut::Edges ? "edges" : "split"},
           {"rectangles", o.seams == Seams::Rectangles ? to_json(o.rectangles) : Json(nullptr)},
           {"box_aspect", o.box_aspect == 0 ? Json("free") : Json(o.box_aspect)},
           {"gap", o.gap ? to_json(*o.gap) : Json("automatic")},

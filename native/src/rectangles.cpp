@@ -1,28 +1,27 @@
-// The three steps of the paper, one after the other.
+// Faces divided where trails cross them: pieces are rectangles (sections 3.2 "Cutting" and 3.3).
 #include "rectangles.h"
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 
-#include "align/align.h"
 #include "cut/boundary_places.h"
 #include "cut/restore_faces.h"
+#include "cut_along_edges.h"
+#include "cut_plan.h"
 #include "layout/place_pieces.h"
-#include "layout/search_layout.h"
 #include "layout/trail_paths.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
-#include "pack/place_charts.h"
 #include "rectangle_pictures.h"
 #include "reduce/goal.h"
+#include "reduce/reduce.h"
 #include "report/locked.h"
-#include "report/note_repairs.h"
 
 namespace atlas_refine {
 namespace {
 
-constexpr double kGapStep = 0.6;
-constexpr int kGapSteps = 3;  // smaller automatic gaps tried before extra corners
 // Until faces are restored pieces are kept so much further apart than the gap, which leaves room for the last steps.
 constexpr double kFirstGap = 1.02;
 // Relative change of E_d at which the reduction before that ends, and the one after (the paper: 1e-4 for several iterations).
@@ -30,82 +29,40 @@ constexpr double kFirstChange = 5e-4;
 constexpr double kLastChange = 2e-5;
 constexpr double kSpread = 1.01;  // what pieces are put further apart by before the reduction, as a factor on their places
 
-using AlignedCharts = std::vector<AxisAlignedChart>;
-
-LayoutOptions layout_options(const Refinement& run) {
-  const RefineOptions& options = run.options;
-  LayoutOptions layout{.pe_bound = options.pe_bound,
-                       .box_aspect = options.box_aspect,
-                       .gaps = {options.gap.value_or(Gap{})},
-                       .rectangles = options.rectangles,
-                       .seed = options.seed,
-                       .threads = run.threads};
-  for (int k = 0; !options.gap && k < kGapSteps; ++k) {
-    Gap smaller = layout.gaps.back();
-    smaller.value *= kGapStep;
-    layout.gaps.push_back(smaller);
+/// How many edges that must stay whole the cuts run along or across.
+int forbidden_edges_cut(const CutPlan& plan, const CutAtlas& cut) {
+  const std::vector<SidePrices>& prices = plan.prices;
+  using ChartEdge = std::tuple<int, int, int>;  // chart, lower and higher vertex
+  std::set<ChartEdge> forbidden, hit;
+  for (int c = 0; c < static_cast<int>(prices.size()); ++c) {
+    for (std::size_t t = 0; t < prices[c].size(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax(plan.sources[c].triangles[t][k], plan.sources[c].triangles[t][(k + 1) % 3]);
+        if (prices[c][t][k] == kNoSeam) forbidden.insert({c, low, high});
+      }
+    }
   }
-  return layout;
-}
-
-/// Charts may overlap themselves here, but every triangle must be positive.
-RepairedCharts with_positive_triangles(const Refinement& run) {
-  RepairOptions options = repair_options(run);
-  options.may_overlap = true;
-  return repair_charts(run.input.set.charts, options, run.monitor);
-}
-
-/// A chart that is to lie in the layout as it is.
-void make_valid(const Refinement& run, int c, std::vector<Chart>& charts, std::vector<int>& embedded) {
-  RepairOptions options = repair_options(run);
-  options.space_points = nullptr;
-  options.freedom.clear();
-  const RepairedCharts repaired = repair_charts({charts[c]}, options, run.monitor);
-  note_repairs(run, repaired);
-  charts[c] = repaired.atlas.pieces.front().mesh;
-  embedded.push_back(c);
-}
-
-/// Charts that only move are packed by their bounding box: turned so that it is small.
-void turn_kept(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts) {
-  const PlaceOptions options{.rotate = run.options.rotate, .align_axes = run.options.align_axes};
-  for (std::size_t c = 0; c < charts.size(); ++c) {
-    if (!bends(freedom, c)) charts[c] = place_charts({charts[c]}, options, run.monitor).front();
+  const auto note = [&](int chart, const std::set<int>& vertices) {
+    const ChartEdge edge{chart, *vertices.begin(), *vertices.rbegin()};
+    if (vertices.size() == 2 && forbidden.contains(edge)) hit.insert(edge);
+  };
+  for (const Seam& seam : cut.seams) {
+    std::set<int> both;
+    for (int end : seam.ends) {
+      std::set<int> own = {end};
+      if (end < 0) own = {cut.points[~end].support.vertices.begin(), cut.points[~end].support.vertices.end()};
+      own.erase(-1);
+      note(seam.chart, own);
+      both.insert(own.begin(), own.end());
+    }
+    note(seam.chart, both);
   }
-}
-
-/// Axis-aligned charts at their wanted densities. Those that are left as they are lie in the layout as they are: they must not
-/// overlap themselves.
-AlignedCharts align(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts, std::vector<int>& embedded) {
-  const AlignOptions options{run.options.rectangles.sigma, run.threads, freedom};
-  AlignedCharts aligned = align_charts(charts, options, run.monitor);
-  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
-    if (aligned[c].way != AxisAlignedChart::Way::AsItIs || !bends(freedom, c) || certify_charts({charts[c]}).valid()) continue;
-    make_valid(run, c, charts, embedded);
-    set_density(charts, wanted_density(run.input.set.charts, run.options.density), run.options.density);
-    aligned[c] = std::move(align_charts({charts[c]}, options, run.monitor).front());
-  }
-  const std::vector<double> wanted = wanted_density(run.input.set.charts, run.options.density);
-  for (std::size_t c = 0; c < aligned.size(); ++c) {
-    for (Vec2& uv : aligned[c].mesh.uvs) uv *= wanted[c];
-  }
-  return aligned;
-}
-
-RectangleReport report_of(const AlignedCharts& aligned, const Layout& layout) {
-  RectangleReport report{.extra_corners = layout.extra_corners, .packed_pe = layout.pe};
-  for (const AxisAlignedChart& chart : aligned) {
-    report.tutte_charts += chart.way == AxisAlignedChart::Way::Rectangle;
-    report.boxed_charts += chart.way == AxisAlignedChart::Way::AsItIs;
-    report.holes_cut += chart.holes_cut;
-  }
-  for (const auto& trails : layout.trails) report.trails += static_cast<int>(trails.size());
-  return report;
+  return static_cast<int>(hit.size());
 }
 
 /// What is told of the cuts; only once they are the result.
-void tell(const Refinement& run, const Freedoms& freedom, const AlignedCharts& aligned, const Layout& layout,
-          const RectangleReport& report) {
+void tell(const Refinement& run, const CutPlan& plan, const CutAtlas& cut, const RectangleReport& report) {
+  const auto& [aligned, layout, freedom] = std::tie(plan.aligned, plan.layout, plan.freedom);
   std::vector<int> opened, saved, boxed;
   for (int c = 0; c < static_cast<int>(aligned.size()); ++c) {
     const int number = run.input.set.charts[c].number;
@@ -129,30 +86,17 @@ void tell(const Refinement& run, const Freedoms& freedom, const AlignedCharts& a
     journal.warnings.push_back("the gap was reduced from " + number_text("%g", Gap{}.value) + " to " +
                                number_text("%g", layout.gap.value) +
                                " of the box diagonal: no layout holds the bound with a larger one");
-}
-
-/// The meshes' vertices told by those of the input's charts; a chart that was opened has more.
-void refer_to_input(const CutAtlas& repaired, AlignedCharts& aligned) {
-  for (std::size_t c = 0; c < aligned.size(); ++c) {
-    for (Support& support : aligned[c].mesh.supports) {
-      for (int& v : support.vertices) v = v >= 0 ? repaired.pieces[c].vertices[v] : v;
-    }
-  }
-}
-
-/// What divided meshes are parts of: the charts, or the input's where one was opened.
-std::vector<Chart> charts_before_opening(const Refinement& run, const CutAtlas& repaired, std::vector<Chart> charts) {
-  for (const Seam& seam : repaired.seams) charts[seam.chart] = run.input.set.charts[seam.chart];
-  return charts;
+  if (const int count = forbidden_edges_cut(plan, cut); count > 0)
+    journal.warnings.push_back("cuts run along or across " + std::to_string(count) + (count == 1 ? " edge" : " edges") +
+                               " where no seam is wanted");
 }
 
 /// Charts divided along the trails and taken apart, where the axis-aligned charts lie.
-CutAtlas cut_along_trails(const Refinement& run, const AlignedCharts& aligned, const std::vector<Chart>& charts,
-                          const Layout& layout) {
-  TracedTrails traced = trace_trails(aligned, layout.trails);
+CutAtlas cut_along_trails(const Refinement& run, const CutPlan& plan) {
+  TracedTrails traced = trace_trails(plan.aligned, plan.layout.trails);
   const auto& points = run.input.set.points;
   match_boundaries(traced.meshes, points);
-  return cut_along(divided_atlas(traced.meshes, charts, points), charts, traced.paths);
+  return cut_along(divided_atlas(traced.meshes, plan.sources, points), plan.sources, traced.paths);
 }
 
 /// The pieces where the layout wants them, a little further apart as far as the bound allows: pieces that touch block each
@@ -166,13 +110,6 @@ void place(const Refinement& run, const Layout& layout, CutAtlas& cut) {
     cut.pieces[p].mesh.uvs = packed[p].uvs;
     for (Vec2& uv : cut.pieces[p].mesh.uvs) uv += shift;
   }
-}
-
-/// The objective of the charts as they come: where the paper stops.
-double energy_of_input(const Refinement& run, const CutAtlas& repaired, const std::vector<Chart>& charts) {
-  const Objective objective = goal_of(run.input.set.charts, repaired, run.options);
-  const std::vector<Chart> start = charts;
-  return reduce_distortion({.charts = start, .objective = objective, .max_iterations = 0}).energy;
 }
 
 /// Moves the pieces to less distortion under the bound.
@@ -218,55 +155,47 @@ std::string obstacle(const Refinement& run, const Freedoms& freedom) {
   return "";
 }
 
-}  // namespace
-
-Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) {
-  const RefineOptions& options = run.options;
-  Journal& journal = run.journal;
-  const Freedoms freedom = freedom_of(run.input.set, options);
-  if (std::string why = obstacle(run, freedom); !why.empty()) return {.failure = std::move(why)};
-  Solution out{.intervention = Intervention::Cut};
-  journal.begin_stage("repair", range.part(0, 0.03));
-  const RepairedCharts repaired = with_positive_triangles(run);
-  out.re_embedded = note_repairs(run, repaired);
-  std::vector<Chart> charts = meshes_of(repaired.atlas);
-  set_density(charts, wanted_density(run.input.set.charts, options.density), options.density);
-  const double enough = options.rectangles.until_input ? energy_of_input(run, repaired.atlas, charts) : 0;
-
-  journal.begin_stage("align", range.part(0.03, 0.35));  // section 3.1
-  turn_kept(run, freedom, charts);
-  AlignedCharts aligned = align(run, freedom, charts, out.re_embedded);
-  refer_to_input(repaired.atlas, aligned);
-  const std::vector<Chart> sources = charts_before_opening(run, repaired.atlas, charts);
-
-  journal.begin_stage("layout", range.part(0.35, 0.45));  // section 3.2
-  const Layout layout = search_layout(aligned, charts, layout_options(run), run.monitor);
-  out.atlas = cut_along_trails(run, aligned, sources, layout);
+Attempt cut_across_faces(const Refinement& run, const CutPlan& plan, const ProgressRange& range) {
+  const Gap& gap = plan.layout.gap;
+  Solution out{.intervention = Intervention::Cut, .atlas = cut_along_trails(run, plan)};
   if (out.atlas.seams.empty()) return {.needless = true};
-  if (journal.draws()) {
-    for (const auto& picture : rectangle_pictures(charts, aligned, layout.trails, options.rectangles.sigma))
-      journal.show(picture);
-  }
-  place(run, layout, out.atlas);
+  place(run, plan.layout, out.atlas);
   const Validity start = certify_charts(meshes_of(out.atlas));
   if (!start.valid()) return {.failure = "in their layout " + start.problem};
 
-  journal.begin_stage("reduce", range.part(0.45, 1));  // section 3.3
-  Gap wide = layout.gap;
+  run.journal.begin_stage("reduce", range);  // section 3.3
+  Gap wide = gap;
   wide.value *= kFirstGap;
-  ReduceResult reduced = reduce(run, wide, kFirstChange, enough, out.atlas);
+  ReduceResult reduced = reduce(run, wide, kFirstChange, plan.enough, out.atlas);
   if (reduced.reached && reduced.within_limit) {
-    restore(sources, freedom, out.atlas);
-    reduced = reduce(run, layout.gap, kLastChange, enough, out.atlas);
+    restore(plan.sources, plan.freedom, out.atlas);
+    reduced = reduce(run, gap, kLastChange, plan.enough, out.atlas);
   }
   if (!reduced.within_limit) return {.failure = "cut, their distortion stays above the largest allowed"};
   if (!reduced.reached) return {.failure = "cut, they do not reach the bound"};
-  out.gap = layout.gap;
+  out.gap = gap;
   out.ended = ended_of(reduced.status);
   out.price = reduced.price;
-  out.rectangles = report_of(aligned, layout);
-  tell(run, freedom, aligned, layout, *out.rectangles);
+  out.re_embedded = plan.mended;
+  out.rectangles = report_of(plan);
+  tell(run, plan, out.atlas, *out.rectangles);
   return {.solution = std::move(out)};
+}
+
+}  // namespace
+
+Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) {
+  const bool along_edges = run.options.cut == Cut::Edges;
+  if (!along_edges) {
+    if (std::string why = obstacle(run, freedom_of(run.input.set, run.options)); !why.empty()) return {.failure = std::move(why)};
+  }
+  CutPlan plan = plan_cuts(run, range.part(0, 0.45));
+  if (run.journal.draws()) {
+    for (const auto& picture : rectangle_pictures(plan.charts, plan.aligned, plan.layout.trails, run.options.rectangles.sigma))
+      run.journal.show(picture);
+  }
+  return along_edges ? cut_along_edges(run, std::move(plan), range.part(0.45, 1))
+                     : cut_across_faces(run, plan, range.part(0.45, 1));
 }
 
 }  // namespace atlas_refine

@@ -10,6 +10,7 @@
 #include "input/take_part.h"
 #include "one_atlas.h"
 #include "report/assemble.h"
+#include "report/kept_faces.h"
 #include "report/locked.h"
 #include "report/note_repairs.h"
 #include "report/options.h"
@@ -98,12 +99,14 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   summarise(whole, participants, options, done, result);
   tell_of(participants, done, journal);
   const int parted = tell_of_folds(whole.set, participants, done, journal);
-  AssembledAtlas assembled = assemble(whole, participants, refined_parts(done), options.stored);
+  AssembledAtlas assembled =
+      assemble(whole, participants, refined_parts(done), {.stored = options.stored, .divide = divides_faces(options)});
   measure_seams(atlas, join_edges(atlas, Joining::AsMeant), result.before);
   measure_seams(assembled.mesh, join_edges(assembled.mesh, joining_after(participants, done)), result.after);
   result.added_seams = assembled.cut_edges + parted;
   result.corner_uvs = std::move(assembled.mesh.corner_uvs);
   result.cut = std::move(assembled.cut);
+  result.new_seams = std::move(assembled.new_seams);
   restore_locked_corners(whole, options, result);
   return result;
 }

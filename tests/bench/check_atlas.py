@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Checks a refined OBJ against its input without using the library: file kept, no new seam, valid, PE, gap, distortion.
 
-    check_atlas.py IN.obj OUT.obj [--pe-bound B] [--aspect W:H] [--gap FRACTION] [--gap-unit diagonal|long_side] [--cuts]
+    check_atlas.py IN.obj OUT.obj [--pe-bound B] [--aspect W:H] [--gap FRACTION] [--gap-unit diagonal|long_side]
+                   [--cuts | --added-seams]
 
-With --cuts seams may be added and faces divided; then the parts of each face must tile it, with everything else kept.
+With --cuts seams may be added and faces divided; then the parts of each face must tile it, with everything else kept. With
+--added-seams edges of the input may become seams; everything but UVs must be kept.
 
 With --aspect the UVs are those of a texture of W:H, which [0, 1]^2 is the whole of: PE, gap and distortion are measured with u
 stretched by W/H, and PE and gap in the smallest box of that shape. The exact tests take the UVs as they stand in the file.
@@ -30,7 +32,18 @@ from topology import Topology, face_areas
 from triangles import distortion, fan_triangles, least_energy_triangles
 
 
-def check(in_path, out_path, pe_bound=None, aspect=0.0, gap=None, gap_unit="diagonal", gap_box="aspect", cuts=False, charts=None):
+def check(
+    in_path,
+    out_path,
+    pe_bound=None,
+    aspect=0.0,
+    gap=None,
+    gap_unit="diagonal",
+    gap_box="aspect",
+    cuts=False,
+    charts=None,
+    added_seams=False,
+):
     """All findings on one pair of files, or on the files of a collection; `problems` is empty where everything holds.
 
     aspect: width / height of the texture, 0 where it is free. gap: a fraction of the diagonal or of the long side of the smallest
@@ -52,10 +65,12 @@ def check(in_path, out_path, pe_bound=None, aspect=0.0, gap=None, gap_unit="diag
     meant = Topology(before, as_meant=True)
     kept = np.array_equal(before.corner_uv, after.corner_uv)
     topology = meant if kept else Topology(after)
-    if not kept:
-        (_check_cut_seams if cuts else _check_seams)(before, meant, after, topology, sources, found)
-    else:
+    if kept:
         found.update(seams_in=meant.seams, seams=meant.seams, added_seams=0)
+    elif cuts:
+        _check_cut_seams(before, meant, after, topology, sources, found)
+    else:
+        _check_seams(before, meant, after, topology, added_seams, found)
     _check_faces(after, topology, found)
     if kept:
         after = replace(after, corner_uv=meant.settled(after))
@@ -84,14 +99,15 @@ def _check_files(pairs, cuts, found):
     return np.concatenate(sources) if sources else None
 
 
-def _check_seams(source, before, result, after, _, found):
+def _check_seams(source, before, result, after, may_add, found):
     """Edges that were whole and are torn, and the other way round. Folded edges and those of one-sided charts have to be torn."""
     torn = before.apart(result)
     split = np.flatnonzero(torn & ~before.fold & ~before.one_sided)
     welded = np.flatnonzero((after.partner >= 0) & (after.partner != before.partner) & after.noticeably_apart(source))
     found.update(seams_in=before.seams, seams=after.seams, added_seams=int((torn & ~before.one_sided).sum()) // 2)
     found.update(parted_folds=int((torn & before.fold).sum()) // 2, removed_seams=len(welded) // 2)
-    if len(split):
+    found.update(bl_in=before.seam_length, bl=after.seam_length)
+    if len(split) and not may_add:
         found["problems"].append(f"seams: {len(split) // 2} added, first at face {int(after.face[split[0]])}")
     if len(welded):
         found["problems"].append(f"seams: {len(welded) // 2} removed, first at face {int(after.face[welded[0]])}")
@@ -179,11 +195,13 @@ def main():
     parser.add_argument("--aspect", type=aspect_of, default=0.0, help="free, square or W:H: shape of the texture [free]")
     parser.add_argument("--gap", type=float, help="smallest distance between charts that must hold, as fraction of the unit")
     parser.add_argument("--gap-unit", choices=["diagonal", "long_side"], default="diagonal")
-    parser.add_argument("--cuts", action="store_true", help="seams may be added and faces divided")
+    seams = parser.add_mutually_exclusive_group()
+    seams.add_argument("--cuts", action="store_true", help="seams may be added and faces divided")
+    seams.add_argument("--added-seams", action="store_true", help="edges of the input may become seams, nothing is divided")
     options = parser.parse_args()
     goal = (options.pe_bound, options.aspect, options.gap, options.gap_unit)
     try:
-        found = check(options.input, options.output, *goal, cuts=options.cuts)
+        found = check(options.input, options.output, *goal, cuts=options.cuts, added_seams=options.added_seams)
     except (OSError, ValueError, IndexError) as error:
         print(f"check_atlas: {options.output}: cannot be read: {error}", file=sys.stderr)
         return 2

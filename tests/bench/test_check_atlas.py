@@ -184,6 +184,18 @@ def test_new_seam(tmp_path):
     assert "seams: 1 added" in found["problems"][0]
 
 
+def test_new_seam_that_is_allowed(tmp_path):
+    apart = text_of(sheet(0, 0, 0.4)).replace("f 1/1 2/2 6/6 5/5", "f 1/17 2/18 6/19 5/20")
+    whole = text_of(sheet(0, 0, 0.4))
+    apart += "".join(f"vt {u} {v}\n" for u, v in [(0.6, 0.0), (0.7, 0.0), (0.7, 0.1), (0.6, 0.1)])
+    found = check(tmp_path, whole, apart, added_seams=True)
+    assert (found["problems"], found["added_seams"], found["charts"]) == ([], 2, 2)
+    assert found["bl"] - found["bl_in"] == pytest.approx(2 / SHEET / math.sqrt(2))
+    assert "seams: 2 removed" in problems(tmp_path, whole, apart, added_seams=True)
+    divided = whole.replace("f 1/1 2/2 6/6 5/5", "f 1/1 2/2 6/6\nf 1/1 6/6 5/5")
+    assert problems(tmp_path, divided, whole, added_seams=True).startswith("file:")
+
+
 def test_closed_seam(tmp_path):
     torn = GOOD.replace("f 1/1 2/2 6/6 5/5", "f 1/1 2/33 6/6 5/5") + "vt 0.13 0.0\n"
     assert "seams: 1 removed" in problems(tmp_path, GOOD, torn)
@@ -409,6 +421,9 @@ def test_command_line(tmp_path):
     good = run(tmp_path / "a.obj", tmp_path / "a.obj", "--pe-bound", "0.8")
     assert (good.returncode, good.stdout.count("\n"), good.stderr) == (0, 1, "")
     assert run(tmp_path / "a.obj", tmp_path / "a.obj", "--pe-bound", "0.9").returncode == 1
+    (tmp_path / "torn.obj").write_text(GOOD.replace("f 1/1 2/2 6/6 5/5", "f 1/1 2/33 6/6 5/5") + "vt 0.13 0.0\n")
+    assert run(tmp_path / "a.obj", tmp_path / "torn.obj").returncode == 1
+    assert run(tmp_path / "a.obj", tmp_path / "torn.obj", "--added-seams").returncode == 0
     assert run(tmp_path / "a.obj", tmp_path / "a.obj", "--pe-bound", "0.8", "--aspect", "square").returncode == 1
     assert run(tmp_path / "a.obj", tmp_path / "a.obj", "--pe-bound", "0.8", "--aspect", "wide").returncode == 2
     assert run(tmp_path / "a.obj", tmp_path / "missing.obj").returncode == 2

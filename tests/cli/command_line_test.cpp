@@ -35,12 +35,14 @@ TEST(CommandLine, HelpListsEveryExitCode) {
 }
 
 TEST(CommandLine, OptionsArrive) {
-  const CommandLine line = parsed({"a.obj", "b.obj", "-o", "out", "--pe-bound", "0.7", "--seams", "rectangles", "--omega", "0.5",
-                                   "--until-input", "--gap-px", "4", "--texture-size", "1024", "--aspect", "2:1", "--seed", "9"});
+  const CommandLine line = parsed({"a.obj",      "b.obj",          "-o",    "out",      "--pe-bound", "0.7",           "--seams",
+                                   "rectangles", "--cut",          "edges", "--omega",  "0.5",        "--until-input", "--gap-px",
+                                   "4",          "--texture-size", "1024",  "--aspect", "2:1",        "--seed",        "9"});
   EXPECT_EQ(line.job, CommandLine::Job::Refine);
   EXPECT_EQ(line.output_of(1), std::filesystem::path("out") / "b.obj");
   EXPECT_EQ(line.options.pe_bound, 0.7);
   EXPECT_EQ(line.options.seams, Seams::Rectangles);
+  EXPECT_EQ(line.options.cut, Cut::Edges);
   EXPECT_EQ(line.options.rectangles.omega, 0.5);
   EXPECT_TRUE(line.options.rectangles.until_input);
   EXPECT_EQ(line.options.gap->value, 4.0 / 1024);
@@ -54,6 +56,12 @@ TEST(CommandLine, TheAspectHasEnds) {
   EXPECT_EQ(parsed({"measure", "a.obj", "--aspect", "100:1"}).options.box_aspect, 100);
   EXPECT_EQ(refusal({"measure", "a.obj", "--aspect", "100.1:1"}), "--aspect: must lie between 1:100 and 100:1, not '100.1:1'");
   EXPECT_EQ(refusal({"measure", "a.obj", "--aspect", "1:100.1"}), "--aspect: must lie between 1:100 and 100:1, not '1:100.1'");
+}
+
+TEST(CommandLine, CutsSplitFacesUnlessSaidOtherwise) {
+  EXPECT_EQ(parsed({"a.obj", "-o", "b.obj"}).options.cut, Cut::Split);
+  EXPECT_EQ(parsed({"a.obj", "-o", "b.obj", "--cut", "split"}).options.cut, Cut::Split);
+  EXPECT_EQ(refusal({"a.obj", "-o", "b.obj", "--cut", "around"}), "--cut: must be 'split' or 'edges', not 'around'");
 }
 
 TEST(CommandLine, WhatOnlyRectanglesReadNeedsThem) {

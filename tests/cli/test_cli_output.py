@@ -163,6 +163,22 @@ def test_cut_is_told(program, tmp_path):
     assert after["boundary_length"] >= before["boundary_length"]
 
 
+def test_cuts_along_edges_keep_everything_but_uvs(program, tmp_path):
+    text, report = arc(12), tmp_path / "report.json"
+    options = ("--seams", "rectangles", "--cut", "edges", "--pe-bound", "0.9", "--report", report)
+    result, told = refine(program, tmp_path, text, *options)
+    assert told.startswith("cut: ")
+    for kind in ("v", "vn"):
+        assert records(result, kind) == records(text, kind)
+    vertices = [[[corner.split("/")[0] for corner in face.split()] for face in records(t, "f")] for t in (result, text)]
+    assert vertices[0] == vertices[1]
+    assert len(uvs(result)) > len(uvs(text))
+    written = json.loads(report.read_text())
+    assert written["options"]["cut"] == "edges"
+    assert written["after"]["chart_count"] == len(written["pieces"]) > 1
+    assert [file["added_faces"] for file in written["files"]] == [0]
+
+
 @pytest.mark.parametrize("seams", ["none", "rectangles"])
 def test_importance_is_read(program, tmp_path, seams):
     """A weight of 1 for all changes nothing; more for one half of the faces does."""

@@ -92,9 +92,9 @@ struct PieceReport {
 struct RectangleReport {
   int tutte_charts = 0;   ///< charts that Tutte's embedding onto a rectangle had to save: the deformation had failed
   int boxed_charts = 0;   ///< charts packed by their bounding box as they were: too few triangles, or no disk
-  int holes_cut = 0;      ///< boundary loops that were joined to the outer one
+  int holes_cut = 0;      ///< boundary loops that were joined to the outer one; with Cut::Edges none
   int extra_corners = 0;  ///< added to each chart because the bound was missed without
-  int trails = 0;         ///< that the charts were cut along
+  int trails = 0;         ///< that the charts were cut along; with Cut::Edges the trails that paths of edges were sought for
   double packed_pe = 0;   ///< of the rectangles, before the distortion was reduced
 };
 
@@ -125,7 +125,9 @@ struct CutMesh {
 
 struct RefineResult {
   std::vector<Vec2> corner_uvs;  ///< one per corner of `cut` or, without it, of the input; its own, bit for bit, where Unchanged
-  std::optional<CutMesh> cut;    ///< where faces were divided or added seams run; with Seams::None only where a chart was opened
+  std::optional<CutMesh> cut;    ///< where faces were divided (Cut::Split); with Seams::None only where a chart was opened so
+  /// Edges of the input, as pairs of its vertices, that were cut where no face was divided (Cut::Edges); each once.
+  std::vector<std::array<int, 2>> new_seams;
   Intervention intervention = Intervention::Unchanged;
   bool bound_met = false;  ///< false only with best_effort, where PE is below the bound; max_distortion holds in every result
   /// Of the charts that take part, stacked ones once. With several groups PE, box and gaps are the least of theirs, distortions

@@ -247,10 +247,10 @@ std::optional<AlignedDisk> aligned_disk(const Chart& chart, double sigma, Monito
   return best && best->energy < dirichlet_sums(chart).best_energy() ? best : std::nullopt;
 }
 
-AxisAlignedChart align(const Chart& source, double sigma, Monitor& monitor) {
+AxisAlignedChart align(const Chart& source, const SidePrices& prices, double sigma, Monitor& monitor) {
   constexpr int kTurns = 45;
   if (source.triangles.size() < kLeastTriangles) return as_it_is(source, kTurns);
-  PreparedChart prepared = prepare_chart(source);
+  PreparedChart prepared = prepare_chart(source, prices);
   if (!prepared.opening.is_disk) return as_it_is(source, kTurns);
   const Chart chart = prepared.mesh.to_chart(source);
   std::optional<AlignedDisk> disk = aligned_disk(chart, sigma, monitor);
@@ -270,7 +270,8 @@ std::vector<AxisAlignedChart> align_charts(const std::vector<Chart>& charts, con
   std::atomic<int> done = 0;
   parallel_ranges(static_cast<int>(charts.size()), options.threads, 1, [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
-      slots[c] = bends(options.freedom, c) ? align(charts[c], options.sigma, monitor) : as_it_is(charts[c], 1);
+      const SidePrices prices = options.prices.empty() ? SidePrices() : options.prices[c];
+      slots[c] = bends(options.freedom, c) ? align(charts[c], prices, options.sigma, monitor) : as_it_is(charts[c], 1);
       monitor.report(static_cast<double>(++done) / static_cast<double>(charts.size()));
     }
   });

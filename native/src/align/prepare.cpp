@@ -47,9 +47,9 @@ void divide_bridges(SplitMesh& mesh) {
 
 }  // namespace
 
-PreparedChart prepare_chart(const Chart& chart) {
+PreparedChart prepare_chart(const Chart& chart, const SidePrices& prices) {
   PreparedChart out{SplitMesh(chart), {}};
-  out.opening = open_to_disk(out.mesh);
+  out.opening = open_to_disk(out.mesh, prices);
   if (!out.opening.is_disk) return out;
   divide_long_boundary_edges(out.mesh);
   divide_bridges(out.mesh);

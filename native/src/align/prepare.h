@@ -13,8 +13,8 @@ struct PreparedChart {
   Opening opening;
 };
 
-/// Opens the chart to a disk, divides boundary edges that are long beside the
+/// Opens the chart to a disk at these prices, divides boundary edges that are long beside the
 /// others (Fig. 23) and every inner edge between two boundary vertices: the third side of an ear is one of those.
-PreparedChart prepare_chart(const Chart& chart);
+PreparedChart prepare_chart(const Chart& chart, const SidePrices& prices = {});
 
 }  // namespace atlas_refine

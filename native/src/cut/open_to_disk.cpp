@@ -29,7 +29,8 @@ std::vector<double> end_costs(const SplitMesh& mesh, const std::vector<std::vect
 }
 
 /// The shortest edge path from one boundary loop (not the first) to any other: as sides, from its one end to the other.
-std::vector<Side> path_between_loops(const SplitMesh& mesh, const std::vector<std::vector<int>>& loops) {
+std::vector<Side> path_between_loops(const SplitMesh& mesh, const std::vector<std::vector<int>>& loops,
+                                     const SidePrices& prices) {
   std::vector<int> loop_of(mesh.vertex_count(), -1);
   for (std::size_t l = 0; l < loops.size(); ++l) {
     for (int v : loops[l]) loop_of[v] = static_cast<int>(l);
@@ -54,8 +55,9 @@ std::vector<Side> path_between_loops(const SplitMesh& mesh, const std::vector<st
     }
     for (const Side& s : mesh.fan(v)) {
       const int w = mesh.to(s);
-      const double through = d + (mesh.uvs[w] - mesh.uvs[v]).norm() + end_cost[w];
-      if (mesh.is_boundary(s) || through >= distance[w]) continue;
+      const double price = prices.empty() ? 1 : prices[s.triangle][s.side];
+      const double through = d + price * (mesh.uvs[w] - mesh.uvs[v]).norm() + end_cost[w];
+      if (mesh.is_boundary(s) || price == kNoSeam || through >= distance[w]) continue;
       distance[w] = through;
       reached_by[w] = s;
       queue.emplace(through, w);
@@ -74,10 +76,10 @@ int edge_count(const SplitMesh& mesh) {
 
 }  // namespace
 
-Opening open_to_disk(SplitMesh& mesh) {
+Opening open_to_disk(SplitMesh& mesh, const SidePrices& prices) {
   Opening out;
   for (auto loops = mesh.vertex_loops(); loops.size() > 1; loops = mesh.vertex_loops()) {
-    const std::vector<Side> path = path_between_loops(mesh, loops);
+    const std::vector<Side> path = path_between_loops(mesh, loops, prices);
     if (path.empty()) return out;
     mesh.cut(path);
     ++out.holes_cut;

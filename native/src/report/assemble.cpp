@@ -7,6 +7,7 @@
 #include "cut/match_pieces.h"
 #include "report/certify.h"
 #include "report/cut_faces.h"
+#include "report/kept_faces.h"
 
 namespace atlas_refine {
 namespace {
@@ -142,13 +143,14 @@ void add_untouched(const InputAtlas& whole, Whole& out) {
   }
 }
 
-/// The input's faces, the UVs of its corners from the pieces, which are whole charts.
-AssembledAtlas uncut(const InputAtlas& whole, const Whole& pieces) {
-  AssembledAtlas out{whole.atlas, std::nullopt};
-  for (std::size_t c = 0; c < out.mesh.corner_uvs.size(); ++c) {
-    const CornerRef& corner = whole.set.corners[c];
-    for (const int p : pieces.pieces_of[corner.chart]) out.mesh.corner_uvs[c] = pieces.uvs[p][corner.vertex];
+/// The input's faces, the UVs of its corners from the pieces.
+AssembledAtlas kept(const InputAtlas& whole, const Whole& pieces) {
+  AssembledAtlas out{whole.atlas};
+  const std::vector<CornerRef> corners = corners_on_pieces(whole.atlas, whole.set, pieces.atlas);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    if (corners[c].chart >= 0) out.mesh.corner_uvs[c] = pieces.uvs[corners[c].chart][corners[c].vertex];
   }
+  out.new_seams = seams_as_vertices(whole.atlas, whole.set, pieces.atlas);
   return out;
 }
 
@@ -172,7 +174,7 @@ AssembledAtlas divided(const InputAtlas& whole, bool several, Stored stored, Who
 }  // namespace
 
 AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts,
-                        Stored stored) {
+                        const AssembleOptions& options) {
   const std::vector<Chart>& charts = whole.set.charts;
   Whole pieces{.atlas = {}, .uvs = {}, .own = {}, .pieces_of = std::vector<std::vector<int>>(charts.size())};
   for (const RefinedPart& part : parts) {
@@ -182,7 +184,7 @@ AssembledAtlas assemble(const InputAtlas& whole, const Participants& participant
   const bool cut = !pieces.atlas.seams.empty() || !pieces.atlas.points.empty();
   const bool several = parts.size() > 1 || !participants.left.empty() || !participants.followers.empty();
   const int cut_edges = static_cast<int>(pieces.atlas.seams.size());
-  AssembledAtlas out = cut ? divided(whole, several, stored, pieces) : uncut(whole, pieces);
+  AssembledAtlas out = cut && options.divide ? divided(whole, several, options.stored, pieces) : kept(whole, pieces);
   out.cut_edges = cut_edges;
   return out;
 }

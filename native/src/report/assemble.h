@@ -20,14 +20,20 @@ struct RefinedPart {
 };
 
 struct AssembledAtlas {
-  Atlas mesh;                  ///< as it comes out
-  std::optional<CutMesh> cut;  ///< where some part was cut
-  int cut_edges = 0;           ///< that were whole in the input's charts
+  Atlas mesh;                                      ///< as it comes out
+  std::optional<CutMesh> cut = {};                 ///< where some part was cut across faces
+  std::vector<std::array<int, 2>> new_seams = {};  ///< pairs of the input's vertices, where cuts ran along its edges
+  int cut_edges = 0;                               ///< that were whole in the input's charts
+};
+
+struct AssembleOptions {
+  Stored stored = Stored::Double;
+  bool divide = true;  ///< cuts may divide faces
 };
 
 /// Followers get the UVs, and the cuts, of their leaders; charts of no part keep their own UVs, bit for bit. Where some part is
 /// cut all of its followers must have the triangles of their leaders.
 AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts,
-                        Stored stored);
+                        const AssembleOptions& options);
 
 }  // namespace atlas_refine

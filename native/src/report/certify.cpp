@@ -11,6 +11,7 @@
 #include "measure/distortion.h"
 #include "report/cut_faces.h"
 #include "report/journal.h"
+#include "report/kept_faces.h"
 #include "report/locked.h"
 
 namespace atlas_refine {
@@ -33,16 +34,17 @@ std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, cons
 }
 
 /// The faces of the charts that take part as they come out, and what each of their corners stands for.
-CutFaces faces_of(const InputAtlas& input, const CutAtlas& atlas, bool cut) {
-  if (cut) return cut_faces(input.atlas, input.set, atlas);
+CutFaces faces_of(const InputAtlas& input, const CutAtlas& atlas, bool divided) {
+  if (divided) return cut_faces(input.atlas, input.set, atlas);
   CutFaces out;
   out.positions = input.atlas.positions;
   out.mesh.face_offsets = {0};
+  const std::vector<CornerRef> corners = corners_on_pieces(input.atlas, input.set, atlas);
   for (int f = 0; f < input.atlas.face_count(); ++f) {
-    if (input.set.corners[input.atlas.face_offsets[f]].chart < 0) continue;
+    if (corners[input.atlas.face_offsets[f]].chart < 0) continue;
     for (int c = input.atlas.face_offsets[f]; c < input.atlas.face_offsets[f + 1]; ++c) {
       out.mesh.corner_vertices.push_back(input.atlas.corner_vertices[c]);
-      out.corners.push_back(input.set.corners[c]);
+      out.corners.push_back(corners[c]);
     }
     out.mesh.face_offsets.push_back(static_cast<int>(out.corners.size()));
   }
@@ -176,7 +178,7 @@ Vec2 as_stored(const Vec2& uv, Stored stored) {
 
 CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap& gap, const RefineOptions& options) {
   const bool cut = !atlas.seams.empty() || !atlas.points.empty();
-  CutFaces faces = faces_of(input, atlas, cut);
+  CutFaces faces = faces_of(input, atlas, cut && divides_faces(options));
   Atlas output{input.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
   CertifiedAtlas out{.stored = meshes_of(atlas)};
   out.uvs = stored_uvs(out.stored, atlas.frame, input.origin, options);
