@@ -6,6 +6,7 @@
 #include "align/align.h"
 #include "cut/boundary_places.h"
 #include "cut/restore_faces.h"
+#include "geometry/guards.h"
 #include "layout/place_pieces.h"
 #include "layout/search_layout.h"
 #include "layout/trail_paths.h"
@@ -134,6 +135,7 @@ void place(const Refinement& run, const Layout& layout, CutAtlas& cut) {
     const Vec2 shift = (factor - 1) * uv_box({packed[p]}).min;
     cut.pieces[p].mesh.uvs = packed[p].uvs;
     for (Vec2& uv : cut.pieces[p].mesh.uvs) uv += shift;
+    drop_broken_guards(cut.pieces[p].mesh);  // of polygons that the axes have bent
   }
 }
 

@@ -58,7 +58,7 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   RefineResult result;
   summarise(whole, participants, options, done, result);
   tell_of(participants, done, journal);
-  AssembledAtlas assembled = assemble(whole, participants, refined_parts(done));
+  AssembledAtlas assembled = assemble(whole, participants, refined_parts(done), options.triangulate);
   measure_seams(atlas, join_edges(atlas), result.before);
   measure_seams(assembled.mesh, join_edges(assembled.mesh), result.after);
   result.corner_uvs = std::move(assembled.mesh.corner_uvs);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/guards.h"
 #include "geometry/predicates.h"
 #include "solve/symmetric_dirichlet.h"
 
@@ -174,6 +175,11 @@ class Restorer {
 
 }  // namespace
 
-int restore_faces(Piece& piece, const Chart& source, double scale) { return Restorer(piece, source, scale).run(); }
+int restore_faces(Piece& piece, const Chart& source, double scale) {
+  const int removed = Restorer(piece, source, scale).run();
+  piece.mesh.guards = guards_of_whole_faces(source, piece.mesh.triangles, piece.sources, piece.supports);
+  drop_broken_guards(piece.mesh);
+  return removed;
+}
 
 }  // namespace atlas_refine

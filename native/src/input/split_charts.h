@@ -11,19 +11,21 @@ namespace atlas_refine {
 
 /// The input atlas as charts. Chart UVs are the input's values, except that mirrored charts are turned over (u negated).
 struct ChartSet {
-  std::vector<Chart> charts;        ///< ordered by their smallest input face
-  std::vector<CornerRef> corners;   ///< one per input corner; chart -1 where it is of none of these charts
-  std::vector<bool> mirrored;       ///< one per chart
-  std::vector<bool> mixed_winding;  ///< one per chart: neighbouring faces run along their edge in the same sense
-  std::vector<FaceDefect> defects;  ///< faces whose triangles are not all positive; empty for a usable atlas
-  int seam_edges = 0;               ///< edges in space between two faces or more that are not joined in the UV map
-  double seam_length = 0;           ///< their length in space, each once, without natural boundary
+  std::vector<Chart> charts;          ///< ordered by their smallest input face
+  std::vector<CornerRef> corners;     ///< one per input corner; chart -1 where it is of none of these charts
+  std::vector<bool> mirrored;         ///< one per chart
+  std::vector<bool> mixed_winding;    ///< one per chart: neighbouring faces run along their edge in the same sense
+  std::vector<FaceDefect> defects;    ///< faces whose triangles are not all positive; empty for a usable atlas
+  std::vector<FaceReading> readings;  ///< one per input face
+  int seam_edges = 0;                 ///< edges in space between two faces or more that are not joined in the UV map
+  double seam_length = 0;             ///< their length in space, each once, without natural boundary
 };
 
 /// Splits an atlas by UV connectivity: faces that share an edge (by vertex, or by equal positions) with equal UVs at both
 /// ends belong together. Faces of opposite winding are joined too, so that no seam arises where the UVs have none. Edges
-/// with more than two such faces are seams. Polygons are triangulated here: as a fan where that is positive in the UV plane,
-/// consistent in space and free of slivers, else by a triangulation of the UV polygon.
+/// with more than two such faces are seams. Polygons are triangulated here: as their reader does it (Atlas::triangles), else
+/// as a fan where that is positive in the UV plane, consistent in space and free of slivers, else by a triangulation of the UV
+/// polygon.
 /// Throws RefineError(BadInput) for arrays that do not fit together, indices out of range, NaN or no faces.
 ChartSet split_charts(const Atlas& atlas);
 

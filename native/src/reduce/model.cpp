@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/collision.h"
+#include "geometry/guards.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "reduce/contact_set.h"
@@ -32,8 +33,10 @@ void flatten(const std::vector<Chart>& charts, ReduceModel& model) {
   int count = 0;
   for (const Chart& chart : charts) {
     model.first_vertex.push_back(count);
-    for (const Triangle& t : chart.triangles) model.triangles.push_back({count + t[0], count + t[1], count + t[2]});
-    model.surface.insert(model.surface.end(), chart.surface.begin(), chart.surface.end());
+    for_each_element(chart, [&](const Triangle& t, const RestTriangle& shape, double share, int) {
+      model.triangles.push_back({count + t[0], count + t[1], count + t[2]});
+      model.surface.push_back({shape.inverse_edges, share * shape.area});
+    });
     for (const Vec2& uv : chart.uvs) model.start.x.push_back(uv / model.objective.unit);
     count += chart.vertex_count();
   }

@@ -18,10 +18,10 @@ struct ReduceState {
 /// Nodes are the vertices and, where there is a box, one more that stands for its sides: (width, height), or (height, unused)
 /// where the aspect is fixed.
 struct ReduceModel {
-  std::vector<int> first_vertex;  ///< of each piece; then the number of vertices
-  std::vector<Triangle> triangles;
+  std::vector<int> first_vertex;    ///< of each piece; then the number of vertices
+  std::vector<Triangle> triangles;  ///< of each piece its own, then its guards
   Objective objective;
-  std::vector<RestTriangle> surface;  ///< in model units: what max_distortion is measured on
+  std::vector<RestTriangle> surface;  ///< in model units, areas times share: what max_distortion is measured on
   std::vector<double> masses;         ///< one per node: a third of the triangles around it; 1 for the box
   Boundary boundary;
   std::vector<double> own_floor;  ///< per boundary vertex: fraction of the gap unit to far edges of its own piece

@@ -6,6 +6,7 @@
 
 #include "atlas_refine/error.h"
 #include "geometry/boundary.h"
+#include "geometry/guards.h"
 #include "geometry/half_edge_mesh.h"
 #include "geometry/tutte.h"
 #include "measure/certificate.h"
@@ -54,7 +55,9 @@ std::optional<Chart> part_touching(const Chart& chart) {
       for (int v = 0; v < chart.vertex_count(); ++v) {
         if (touching[v]) parted.uvs[v] += share / count[v] * inward[v];
       }
-      if (certify_charts({parted}).valid()) return parted;
+      if (!certify_charts({parted}).valid()) continue;
+      drop_broken_guards(parted);
+      return parted;
     }
   }
   return std::nullopt;
@@ -74,14 +77,18 @@ Chart re_embed(const Chart& chart, int chart_index, int threads, Monitor& monito
   start[0].uvs = tutte_disk(chart);
   if (const Validity valid = certify_charts(start); !valid.valid())
     throw fail("Tutte's embedding of it is not exact: " + valid.problem);
+  drop_broken_guards(start[0]);
   const ReduceProblem problem{.charts = start, .gap = {.value = kGapForLargerBox * Gap{}.value}, .threads = threads};
   const ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
     // E_d falls from far above to near 1: its logarithm tells how far the way is.
     monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
   });
   if (result.energy > kCollapsed) throw fail("no embedding of acceptable distortion was found");
-  start[0].uvs = result.uvs[0];
-  return start[0];
+  // Polygons that have become convex on the way are guarded from here on.
+  Chart embedded = chart;
+  embedded.uvs = result.uvs[0];
+  drop_broken_guards(embedded);
+  return embedded;
 }
 
 }  // namespace atlas_refine

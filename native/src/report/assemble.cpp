@@ -151,11 +151,11 @@ AssembledAtlas uncut(const InputAtlas& whole, const Whole& pieces) {
   return out;
 }
 
-AssembledAtlas divided(const InputAtlas& whole, bool several, Whole& pieces) {
+AssembledAtlas divided(const InputAtlas& whole, bool several, bool triangulate, Whole& pieces) {
   add_untouched(whole, pieces);
   // Within one part both sides of each seam are divided alike already.
   if (several) match_pieces(pieces.atlas, whole.set.charts, space_points(whole.atlas, whole.set), pieces.uvs);
-  CutFaces faces = cut_faces(whole.atlas, whole.set, pieces.atlas);
+  CutFaces faces = cut_faces(whole.atlas, whole.set, pieces.atlas, {pieces.uvs, triangulate});
   AssembledAtlas out;
   out.mesh = {whole.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
   for (std::size_t c = 0; c < faces.corners.size(); ++c) {
@@ -169,7 +169,8 @@ AssembledAtlas divided(const InputAtlas& whole, bool several, Whole& pieces) {
 
 }  // namespace
 
-AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts) {
+AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts,
+                        bool triangulate) {
   const std::vector<Chart>& charts = whole.set.charts;
   Whole pieces{.atlas = {}, .uvs = {}, .own = {}, .pieces_of = std::vector<std::vector<int>>(charts.size())};
   for (const RefinedPart& part : parts) {
@@ -178,7 +179,7 @@ AssembledAtlas assemble(const InputAtlas& whole, const Participants& participant
   for (const Follower& follower : participants.followers) follow(follower, charts, pieces);
   const bool cut = !pieces.atlas.seams.empty() || !pieces.atlas.points.empty();
   const bool several = parts.size() > 1 || !participants.left.empty() || !participants.followers.empty();
-  return cut ? divided(whole, several, pieces) : uncut(whole, pieces);
+  return cut ? divided(whole, several, triangulate, pieces) : uncut(whole, pieces);
 }
 
 }  // namespace atlas_refine

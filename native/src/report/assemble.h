@@ -25,7 +25,8 @@ struct AssembledAtlas {
 };
 
 /// Followers get the UVs, and the cuts, of their leaders; charts of no part keep their own UVs, bit for bit. Where some part is
-/// cut all of its followers must have the triangles of their leaders.
-AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts);
+/// cut all of its followers must have the triangles of their leaders. `triangulate` as CutFaceOptions has it.
+AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts,
+                        bool triangulate);
 
 }  // namespace atlas_refine
