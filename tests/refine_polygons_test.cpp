@@ -117,6 +117,36 @@ TEST(RefinePolygons, CutFacesAreConvexOrTriangles) {
   }
 }
 
+/// The atlas and its mirror image on the same UVs.
+Atlas with_mirror_image(const Atlas& atlas) {
+  Atlas image = atlas;
+  for (Vec3& p : image.positions) p.x() = -p.x();
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    std::reverse(image.corner_vertices.begin() + atlas.face_offsets[f] + 1,
+                 image.corner_vertices.begin() + atlas.face_offsets[f + 1]);
+    std::reverse(image.corner_uvs.begin() + atlas.face_offsets[f] + 1, image.corner_uvs.begin() + atlas.face_offsets[f + 1]);
+  }
+  return shapes::combine({atlas, image});
+}
+
+TEST(RefinePolygons, TheMirrorImageOfACutChartIsDividedAsTheChart) {
+  const Atlas band = shapes::quad_band(24, 5);
+  const RefineResult result = refine(with_mirror_image(band), rectangles());
+  ASSERT_TRUE(result.cut.has_value());
+  const std::vector<int>& sources = result.cut->face_sources;
+  std::array<std::vector<std::size_t>, 2> sides;  // of the faces of either, as they come
+  for (int f = 0; f < static_cast<int>(sources.size()); ++f) {
+    std::vector<Vec2> uvs = outline(result.cut->face_offsets, result.corner_uvs, f);
+    const bool image = sources[f] >= band.face_count();
+    if (image) std::reverse(uvs.begin(), uvs.end());
+    EXPECT_TRUE(is_strictly_convex(uvs));
+    sides[image].push_back(uvs.size());
+  }
+  for (auto& list : sides) std::sort(list.begin(), list.end());
+  EXPECT_EQ(sides[0], sides[1]);
+  EXPECT_GT(std::count(sides[1].begin(), sides[1].end(), 4), 60) << "quads that nothing divides stay quads";
+}
+
 TEST(RefinePolygons, CutFacesAreTrianglesThroughoutWhereAskedFor) {
   const Atlas atlas = shapes::quad_band(24, 5);
   RefineOptions options = rectangles();
