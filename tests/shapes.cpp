@@ -362,6 +362,41 @@ Atlas quad_grid(int columns, int rows) {
   return atlas;
 }
 
+Atlas quad_band(int along, int across, double turns) {
+  Atlas atlas;
+  std::vector<Vec2> uvs;
+  for (int k = 0; k <= along; ++k) {
+    for (int i = 0; i <= across; ++i) uvs.push_back(polar(0.25 + 0.25 * i / across, 2 * kPi * turns * k / along));
+  }
+  for (const Vec2& p : uvs) atlas.positions.push_back(lifted(p, 0.5));
+  for (int k = 0; k < along; ++k) {
+    for (int i = 0; i < across; ++i) {
+      const int v = k * (across + 1) + i;
+      add_face(atlas, {v, v + 1, v + across + 2, v + across + 1}, uvs);
+    }
+  }
+  return atlas;
+}
+
+Atlas honeycomb(int columns, int rows) {
+  // Rows of vertices that go up and down by turns; a cell lies between two of them, every other row half a cell further.
+  const int width = 2 * columns + 2;
+  const double scale = 0.5 / std::max(columns, rows);
+  Atlas atlas;
+  std::vector<Vec2> uvs;
+  for (int r = 0; r <= rows; ++r) {
+    for (int i = 0; i < width; ++i) uvs.push_back(scale * Vec2(0.87 * i, 1.5 * r + ((i + r) % 2 == 0 ? 0.25 : -0.25)));
+  }
+  for (const Vec2& p : uvs) atlas.positions.push_back(lifted(p, 0.5));
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const int low = r * width + 2 * c + r % 2, high = low + width;
+      add_face(atlas, {low, low + 1, low + 2, high + 2, high + 1, high}, uvs);
+    }
+  }
+  return atlas;
+}
+
 Atlas self_overlapping(double turns) {
   constexpr int kAcross = 4;
   constexpr double kInner = 0.3, kOuter = 0.5;

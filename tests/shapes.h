@@ -58,7 +58,9 @@ Atlas disk_in_ring();                            ///< a ring, and a small disk a
 Atlas touching_charts();                         ///< two squares that share a whole border line in UV, not in 3D
 
 // Single charts with a twist.
-Atlas quad_grid(int columns, int rows);       ///< faces with 4 corners, lifted
+Atlas quad_grid(int columns, int rows);                       ///< faces with 4 corners, lifted
+Atlas quad_band(int along, int across, double turns = 0.75);  ///< faces with 4 corners along a part of a ring, lifted
+Atlas honeycomb(int columns, int rows);                       ///< faces with 6 corners, lifted
 Atlas self_overlapping(double turns = 1.4);   ///< a band wound over itself: every triangle positive, not injective
 Atlas mirrored(const Atlas& atlas);           ///< u negated: every face clockwise
 Atlas with_flipped_face(const Atlas& atlas);  ///< one inner vertex pulled over its fan: some faces clockwise

@@ -44,8 +44,8 @@ TEST(Shapes, MeshesFillTheirPolygons) {
 }
 
 TEST(Shapes, AtlasesOfSeveralChartsArePositive) {
-  for (const Atlas& atlas :
-       {two_squares(0.1), squares(30), disk_in_ring(), touching_charts(), quad_grid(5, 4), self_overlapping()}) {
+  for (const Atlas& atlas : {two_squares(0.1), squares(30), disk_in_ring(), touching_charts(), quad_grid(5, 4), quad_band(9, 2),
+                             honeycomb(4, 3), self_overlapping()}) {
     EXPECT_EQ(negative_faces(atlas), 0);
   }
 }

@@ -34,7 +34,8 @@ bool holds_already(const InputAtlas& input, const Freedoms& freedom, const Refin
 }
 
 Outcome unchanged(const InputAtlas& input, const RefineOptions& options) {
-  Outcome out{.before = input.measures, .after = input.measures, .bound_met = true};
+  Outcome out{
+      .before = input.measures, .after = input.measures, .triangulations = count_readings(input.set.readings), .bound_met = true};
   // An automatic gap asks nothing of an atlas that is left as it is.
   out.gap = options.gap.value_or(Gap{std::min(Gap{}.value, input.measures.gap_between)});
   out.charts = reports_of_input(input);
@@ -127,6 +128,7 @@ Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, Certif
   Solution& solution = certified.solution;
   Outcome out{.before = input.measures,
               .after = certified.atlas.after,
+              .triangulations = certified.atlas.triangulations,
               .intervention = solution.intervention,
               .gap = solution.gap,
               .price = solution.price,
@@ -177,6 +179,17 @@ Outcome all_locked(const InputAtlas& input, const RefineOptions& options, bool h
   return out;
 }
 
+/// Faces that are valid in one reader and flipped in another.
+void warn_of_polygons(const CertifiedAtlas& result, Journal& journal) {
+  const auto faces = [](int count) { return std::to_string(count) + (count == 1 ? " face is" : " faces are"); };
+  const Triangulations& by = result.triangulations;
+  if (by.not_convex > 0)
+    journal.warnings.push_back(faces(by.not_convex) + " not convex in the UV map, valid only where divided as here; " +
+                               std::to_string(by.fan_flipped) + " of them would be flipped as a fan");
+  if (result.worse_faces > 0)
+    journal.warnings.push_back(faces(result.worse_faces) + " no longer valid under every division that was valid in the input");
+}
+
 }  // namespace
 
 Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const ProgressRange& range, Monitor& monitor,
@@ -193,6 +206,7 @@ Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const 
   journal.show(to_string(result.solution.intervention), result.atlas.stored);
   warn_of_early_end(result.solution, journal);
   warn_of_density(input, options, result.atlas.charts, journal);
+  warn_of_polygons(result.atlas, journal);
   return outcome_of(input, options, std::move(result));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "atlas_refine/error.h"
+#include "geometry/guards.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "pack/place_charts.h"
@@ -170,6 +171,7 @@ bool part_pinches(const Refinement& run, const Freedoms& freedom, std::vector<Ch
   for (std::size_t c = 0; c < charts.size(); ++c) {
     if (!bends(freedom, c) || certify_charts({charts[c]}).valid()) continue;
     if (auto apart = part_touching(charts[c])) charts[c] = std::move(*apart);
+    drop_broken_guards(charts[c]);
     parted.push_back(charts[c].number);
   }
   if (parted.empty()) return false;

@@ -10,6 +10,7 @@
 #include "cut/restore_faces.h"
 #include "cut_along_edges.h"
 #include "cut_plan.h"
+#include "geometry/guards.h"
 #include "layout/place_pieces.h"
 #include "layout/trail_paths.h"
 #include "measure/certificate.h"
@@ -109,6 +110,7 @@ void place(const Refinement& run, const Layout& layout, CutAtlas& cut) {
     const Vec2 shift = (factor - 1) * uv_box({packed[p]}).min;
     cut.pieces[p].mesh.uvs = packed[p].uvs;
     for (Vec2& uv : cut.pieces[p].mesh.uvs) uv += shift;
+    drop_broken_guards(cut.pieces[p].mesh);  // of polygons that the axes have bent
   }
 }
 

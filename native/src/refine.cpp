@@ -100,7 +100,8 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   tell_of(participants, done, journal);
   const int parted = tell_of_folds(whole.set, participants, done, journal);
   AssembledAtlas assembled =
-      assemble(whole, participants, refined_parts(done), {.stored = options.stored, .divide = divides_faces(options)});
+      assemble(whole, participants, refined_parts(done),
+               {.stored = options.stored, .divide = divides_faces(options), .triangulate = options.triangulate});
   measure_seams(atlas, join_edges(atlas, Joining::AsMeant), result.before);
   measure_seams(assembled.mesh, join_edges(assembled.mesh, joining_after(participants, done)), result.after);
   result.added_seams = assembled.cut_edges + parted;

@@ -7,6 +7,9 @@
 With --cuts seams may be added and faces divided; then the parts of each face must tile it, with everything else kept. With
 --added-seams edges of the input may become seams; everything but UVs must be kept.
 
+Faces that a reader may divide by a fan, by ears or by either diagonal and that are positive so in the input must be in the result;
+faces that are new must be under each.
+
 With --aspect the UVs are those of a texture of W:H, which [0, 1]^2 is the whole of: PE, gap and distortion are measured with u
 stretched by W/H, and PE and gap in the smallest box of that shape. The exact tests take the UVs as they stand in the file.
 
@@ -25,11 +28,12 @@ from pathlib import Path
 import numpy as np
 from borders import NEAR, Boundary
 from check_cut import divided, joined_anew, torn_anew
+from divisions import lost_divisions
 from exact import orientation, polygon_is_simple
 from obj_text import one_after_the_other, read_obj
 from taking_part import taking_part
 from topology import Topology, face_areas
-from triangles import distortion, fan_triangles, least_energy_triangles
+from triangles import distortion, elements, fan_triangles
 
 
 def check(
@@ -72,6 +76,7 @@ def check(
     else:
         _check_seams(before, meant, after, topology, added_seams, found)
     _check_faces(after, topology, found)
+    _check_divisions((before, meant.sense), (after, topology.sense), sources, found)
     if kept:
         after = replace(after, corner_uv=meant.settled(after))
     _check_texture(after, topology, found, pe_bound=pe_bound, aspect=aspect, gap=gap, gap_unit=gap_unit, gap_box=gap_box)
@@ -138,6 +143,15 @@ def _check_faces(after, topology, found):
         found["problems"].append(f"flipped or flat: {len(flipped)} faces, first {flipped[0]}")
 
 
+def _check_divisions(before, after, sources, found):
+    """Whoever divides a polygon: what was positive in the input still is, and new faces are whatever the division."""
+    lost, has = lost_divisions(before, after, sources)
+    for name, faces in lost.items():
+        found[f"{name}_flipped"] = int((~has[name]).sum())
+        if len(faces):
+            found["problems"].append(f"{name}: {len(faces)} faces are flipped where divided so, first {int(faces[0])}")
+
+
 def fills_unit_square(uvs):
     """The UVs lie in [0, 1]^2 and reach from side to side of it in one direction at least."""
     return bool(uvs.min() >= -NEAR and uvs.max() <= 1 + NEAR and np.ptp(uvs, axis=0).max() >= 1 - 2 * NEAR)
@@ -175,8 +189,8 @@ def _check_boundary(boundary, box, gap, gap_unit, found):
 
 def _measure_distortion(before, after, width, found):
     before, after = (replace(obj, corner_uv=obj.corner_uv * (width, 1)) for obj in (before, after))
-    found["e_d_in"] = distortion(before, least_energy_triangles(before))[0]
-    found["e_d"], found["stretch_99"], found["stretch_max"] = distortion(after, least_energy_triangles(after))
+    found["e_d_in"] = distortion(before, *elements(before))[0]
+    found["e_d"], found["stretch_99"], found["stretch_max"] = distortion(after, *elements(after))
 
 
 def aspect_of(text):

@@ -323,6 +323,33 @@ def test_polygon_that_is_not_convex_is_good(tmp_path):
         assert problems(tmp_path, text_of(mesh(dart, [tuple((k + turn) % 4 for k in range(4))]))) == ""
 
 
+def test_quad_that_became_concave(tmp_path):
+    """Valid by one diagonal either way: the fan of some turns is flipped, of others not, and one diagonal is."""
+    square, dart = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)], [(0.0, 0.0), (1.0, 0.0), (0.25, 0.25), (0.0, 1.0)]
+    for turn in range(4):
+        face = tuple((k + turn) % 4 for k in range(4))
+        flat = [(u, v, 0.0) for u, v in square]
+        found = problems(tmp_path, text_of((flat, dart, [face])), text_of((flat, square, [face])))
+        assert ("fan" in found) == (turn % 2 == 1)
+        assert "diagonals: 1 faces" in found
+        assert "ears" not in found
+        assert problems(tmp_path, text_of((flat, square, [face])), text_of((flat, dart, [face]))) == ""
+
+
+def test_distortion_of_a_quad_is_the_mean_of_both_diagonals(tmp_path):
+    """Bent in space along one diagonal, a square in the UV plane, whichever corner comes first."""
+    uvs = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+    bent = [(u, v, 0.8 * (u == v == 1.0)) for u, v in uvs]
+    found = [check(tmp_path, *[text_of((bent, uvs, [tuple((k + turn) % 4 for k in range(4))]))] * 2)["e_d"] for turn in range(4)]
+    assert found == [pytest.approx(found[0], rel=1e-12)] * 4
+    (tmp_path / "a.obj").write_text(text_of((bent, uvs, [(0, 1, 2, 3)])))
+    obj = check_atlas.read_obj(tmp_path / "a.obj")
+    ways = [check_atlas.np.array(way) for way in ([(0, 1, 2), (0, 2, 3)], [(0, 1, 3), (1, 2, 3)])]
+    every, half = check_atlas.np.concatenate(ways), check_atlas.np.full(4, 0.5)
+    assert found[0] == pytest.approx(check_atlas.distortion(obj, every, half)[0], rel=1e-12)
+    assert min(check_atlas.distortion(obj, way)[0] for way in ways) < found[0]
+
+
 def test_polygon_that_crosses_itself(tmp_path):
     bow = [(0.0, 0.0), (1.0, 0.0), (0.2, 1.0), (1.0, 1.0)]
     assert "flipped" in problems(tmp_path, text_of(mesh(bow, [(0, 1, 2, 3)])))

@@ -29,14 +29,16 @@ usemtl other
 f 2/5 5/6 6/7 3/8
 """
 
-# The diagonal gets a vertex at its middle, and the first triangle is cut from there to vertex 2; the second half moves away.
+# The diagonal gets a vertex at its middle, and the first triangle is cut from there to vertex 2; the second half moves away. The
+# second triangle, which gained a corner, is divided there.
+BESIDE = "f 1/1/1 7/9/3 4/4/1\nf 7/9/3 3/3/2 4/4/1"
 FACES = BEFORE[BEFORE.index("g one") :]
 AFTER = (
     BEFORE.replace("vt 0 0\n", "v 0.5 0.5 0 0.5 0 0.5\nvt 0 0\n")
     .replace("vn 0 0 1", "vt 0.25 0.25\nvt 0.5 -0.5\nvt 0.5 0\nvt 0.25 -0.25\nvn 0 0 1")
     .replace("g one", "vn 0.7 0 0.7\ng one")
     .replace("f 1/1/1 2/2/1 3/3/2", "f 1/1/1 2/2/1 7/9/3\nf 2/10/1 3/11/2 7/12/3")
-    .replace("f 1/1/1 3/3/2 4/4/1", "f 1/1/1 7/9/3 3/3/2 4/4/1")
+    .replace("f 1/1/1 3/3/2 4/4/1", BESIDE)
 )
 
 
@@ -58,7 +60,13 @@ def test_good_cut(tmp_path):
     found = check(tmp_path, APART)
     assert found["problems"] == []
     assert (found["charts"], found["flipped"], found["contacts"]) == (3, 0, 0)
-    assert found["faces"] == 4
+    assert found["faces"] == 5
+
+
+def test_corner_in_the_middle_of_a_side(tmp_path):
+    """As one face the divided triangle is simple, but its fan from vertex 1 is flat."""
+    found = problems(tmp_path, APART.replace(BESIDE, "f 1/1/1 7/9/3 3/3/2 4/4/1"))
+    assert found == " | ".join(f"{way}: 1 faces are flipped where divided so, first 2" for way in ("fan", "diagonals"))
 
 
 def test_torn_edges_are_counted(tmp_path):
@@ -95,7 +103,7 @@ def test_new_vertex_off_the_surface(tmp_path, moved):
 
 def test_lost_part(tmp_path):
     assert "face 0 is not tiled" in problems(tmp_path, APART.replace("f 2/10/1 3/11/2 7/12/3\n", ""))
-    assert "face 1 is lost" in problems(tmp_path, APART.replace("f 1/1/1 7/9/3 3/3/2 4/4/1\n", ""))
+    assert "face 1 is lost" in problems(tmp_path, APART.replace(BESIDE + "\n", ""))
     assert "face 2 is lost" in problems(tmp_path, APART.replace("f 2/5 5/6 6/7 3/8\n", ""))
 
 
@@ -110,7 +118,7 @@ def test_part_that_is_turned_over(tmp_path):
 
 
 def test_edge_divided_on_one_side_only(tmp_path):
-    one_sided = APART.replace("f 1/1/1 7/9/3 3/3/2 4/4/1", "f 1/1/1 3/3/2 4/4/1")
+    one_sided = APART.replace(BESIDE, "f 1/1/1 3/3/2 4/4/1")
     assert "edges of length 2.83 are open" in problems(tmp_path, one_sided)
 
 
@@ -142,7 +150,7 @@ def test_polygon_that_is_not_flat_may_be_divided(tmp_path):
 def test_identical_faces_are_told_apart(tmp_path):
     """A face that is there twice, front and front: each has parts of its own."""
     before = BEFORE.replace("g two", "f 1/1/1 3/3/2 4/4/1\ng two")
-    after = APART.replace("g two", "f 1/1/1 7/9/3 3/3/2 4/4/1\ng two")
+    after = APART.replace("g two", f"{BESIDE}\ng two")
     found = problems(tmp_path, after, before)
     assert "surface" not in found
     assert "file" not in found
@@ -159,5 +167,5 @@ def test_collection(tmp_path):
         return check_atlas.check([tmp_path / "in.obj"] * 2, [tmp_path / f"{name}.obj" for name in outputs], cuts=True)
 
     good = run("a", "b")
-    assert (good["problems"], good["charts"], good["faces"]) == ([], 6, 8)
+    assert (good["problems"], good["charts"], good["faces"]) == ([], 6, 10)
     assert "borders" in " ".join(run("a", "a")["problems"])

@@ -8,6 +8,7 @@ import numpy as np
 SLIVER = 1e-7  # triangles in space lower than this part of their longest edge have no shape of their own
 NO_TRIANGLE = 1e30  # energy of slivers and of what is not positive in the UV plane
 SIDES_TRIED = 100
+CLEAR = 0.05  # of the share that an ear has in a square: quads with smaller ones are nearly triangles, or concave
 
 
 def fan_triangles(offsets):
@@ -17,6 +18,15 @@ def fan_triangles(offsets):
     step = np.arange(len(face)) - np.repeat(np.cumsum(count) - count, count)
     first = offsets[face]
     return np.stack([first, first + step + 1, first + step + 2], axis=1), face
+
+
+def ear_triangles(offsets):
+    """The corners of every polygon with their neighbours, the face of each triangle."""
+    face = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    corner = np.arange(len(face))
+    previous, following = corner - 1, corner + 1
+    previous[offsets[:-1]], following[offsets[1:] - 1] = offsets[1:] - 1, offsets[:-1]
+    return np.stack([previous, corner, following], axis=1), face
 
 
 def jacobians(obj, triangles):
@@ -85,13 +95,43 @@ def least_energy_triangles(obj):
     return np.concatenate(out)
 
 
-def distortion(obj, triangles):
+def clearly_convex_quads(obj):
+    """Quads no ear of which is small, across their mean normal in space and in the UV plane."""
+    quads = np.flatnonzero(np.diff(obj.offsets) == 4)
+    p = obj.positions[obj.corner_vertex[obj.offsets[quads][:, None] + np.arange(4)]]
+    u = obj.corner_uv[obj.offsets[quads][:, None] + np.arange(4)]
+    before, after = np.roll(p, 1, axis=1) - p, np.roll(p, -1, axis=1) - p
+    normals = np.cross(after, before)
+    whole = np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 1])
+    in_space = np.einsum("qki,qi->qk", normals, whole)
+    before, after = np.roll(u, 1, axis=1) - u, np.roll(u, -1, axis=1) - u
+    ears = after[..., 0] * before[..., 1] - after[..., 1] * before[..., 0]
+    in_plane = ears * np.sign(ears.sum(axis=1))[:, None]
+    least = CLEAR / 2 * np.stack([np.einsum("qi,qi->q", whole, whole), np.abs(ears.sum(axis=1)) / 2])
+    return quads[(least > 0).all(axis=0) & (in_space.min(axis=1) >= least[0]) & (in_plane.min(axis=1) >= least[1])]
+
+
+def elements(obj):
+    """What E_d is summed over: corners of triangles, and the part of its area that each counts for.
+
+    Clearly convex quads count by both of their diagonals, half each; other polygons as they cost least."""
+    triangles = least_energy_triangles(obj)
+    quads = np.zeros(len(obj.offsets) - 1, dtype=bool)
+    quads[clearly_convex_quads(obj)] = True
+    ears, face = ear_triangles(obj.offsets)
+    others = triangles[~quads[np.searchsorted(obj.offsets, triangles[:, 0], side="right") - 1]]
+    halves = ears[quads[face]]
+    return np.concatenate([others, halves]), np.repeat([1.0, 0.5], [len(others), len(halves)])
+
+
+def distortion(obj, triangles, share=None):
     """E_d, eq. (9), under the global scale that minimises it, and the 99 % and largest stretch under that scale."""
     double_area, sliver, square, det = jacobians(obj, triangles)
     double_area, square, det = double_area[~sliver], square[~sliver], np.abs(det[~sliver])
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         inverse_square = square / det**2
-        weight = double_area / double_area.sum()
+        weight = double_area * (1 if share is None else share[~sliver])
+        weight = weight / weight.sum()
         forth, back = float(weight @ square), float(weight @ inverse_square)
         scale = (back / forth) ** 0.25
         root = np.sqrt(np.maximum(square**2 - 4 * det**2, 0))

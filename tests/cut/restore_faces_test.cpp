@@ -42,6 +42,25 @@ TEST(RestoreFaces, RemovesVerticesAndKeepsTheRest) {
   EXPECT_GT(removed_in_all, 20);
 }
 
+TEST(RestoreFaces, FacesThatAreWholeAgainHaveTheirGuards) {
+  int regained = 0;
+  for (const Atlas& atlas : {testing::open_box(5), shapes::quad_band(24, 5)}) {
+    testing::Laid laid = testing::laid(atlas);
+    for (Piece& piece : laid.cut.pieces) {
+      const Chart& source = laid.set.charts[piece.chart];
+      const std::size_t before = piece.mesh.guards.size();
+      restore_faces(piece, source, 1);
+      regained += piece.mesh.guards.size() > before;
+      for (const Guard& guard : piece.mesh.guards) {
+        testing::expect_positive(piece.mesh.uvs, {guard.triangle});
+        const auto own = std::count(piece.mesh.triangle_faces.begin(), piece.mesh.triangle_faces.end(), guard.face);
+        EXPECT_EQ(own, 2) << "a divided quad has guards";
+      }
+    }
+  }
+  EXPECT_GT(regained, 0);
+}
+
 TEST(RestoreFaces, AnUndividedChartHasNothingToRestore) {
   testing::Laid laid = testing::laid(shapes::mesh(shapes::rectangle(1, 0.7), 0.1));
   Piece& piece = laid.cut.pieces.front();

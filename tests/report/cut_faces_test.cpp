@@ -5,13 +5,18 @@
 
 #include "cut/restore_faces.h"
 #include "cut_checks.h"
+#include "geometry/convex_polygon.h"
 
 namespace atlas_refine {
 namespace {
 
 using testing::Laid;
 
-CutFaces faces_of(const Laid& laid) { return cut_faces(laid.atlas, laid.set, laid.cut); }
+CutFaces faces_of(const Laid& laid, bool triangulate = false) {
+  std::vector<std::vector<Vec2>> uvs;
+  for (const Piece& piece : laid.cut.pieces) uvs.push_back(piece.mesh.uvs);
+  return cut_faces(laid.atlas, laid.set, laid.cut, {uvs, triangulate});
+}
 
 Vec3 area_vector(const std::vector<Vec3>& positions, const std::vector<int>& corners, int begin, int end) {
   Vec3 sum = Vec3::Zero();
@@ -223,6 +228,30 @@ TEST(CutFaces, EveryTornEdgeIsASeam) {
       EXPECT_EQ(both[0].ends != both[1].ends, seams.contains(edge));
     }
   }
+}
+
+TEST(CutFaces, PolygonsAreConvexInSpaceAndInTheUvPlane) {
+  int polygons = 0, whole = 0;
+  for (const Atlas& atlas : {testing::open_box(5), shapes::quad_band(24, 5)}) {
+    const Laid laid = testing::laid(atlas);
+    for (const bool triangulate : {false, true}) {
+      const CutFaces out = faces_of(laid, triangulate);
+      for (std::size_t f = 0; f < out.mesh.face_sources.size(); ++f) {
+        std::vector<Vec2> uvs;
+        bool is_new = false;
+        for (int c = out.mesh.face_offsets[f]; c < out.mesh.face_offsets[f + 1]; ++c) {
+          uvs.push_back(laid.cut.pieces[out.corners[c].chart].mesh.uvs[out.corners[c].vertex]);
+          is_new = is_new || out.mesh.corner_vertices[c] >= static_cast<int>(atlas.positions.size());
+        }
+        EXPECT_TRUE(is_strictly_convex(uvs));
+        EXPECT_FALSE(triangulate && is_new && uvs.size() > 3);
+        polygons += is_new && uvs.size() > 3;
+        whole += triangulate && uvs.size() == 4;
+      }
+    }
+  }
+  EXPECT_GT(polygons, 0);
+  EXPECT_GT(whole, 0) << "faces that nothing divides stay as they are";
 }
 
 }  // namespace

@@ -29,15 +29,23 @@ struct Measures {
   double gap_within = 0;  ///< smallest distance between two borders of one chart that are far apart along it / box diagonal
 };
 
+/// Faces that are not positive under the divisions into triangles that readers use. Exact; a flipped triangle counts in each.
+struct Triangulations {
+  int fan_flipped = 0;   ///< as a fan from the first corner
+  int ears_flipped = 0;  ///< by ear clipping: the outline crosses itself, or is turned over
+  int not_convex = 0;    ///< by some division: of a quad by one of its diagonals, a larger polygon is not strictly convex
+};
+
 /// Why an atlas is not valid. Empty `problem` means valid.
 struct Validity {
   bool valid() const { return problem.empty(); }
-  std::string problem;      ///< one line that names the first problem found
-  int chart = -1;           ///< 0-based chart, -1 where none applies
-  int face = -1;            ///< 0-based input face, -1 where none applies
-  int flipped_faces = 0;    ///< faces whose UV area is not positive in the sense of their chart
-  int mirrored_charts = 0;  ///< charts whose faces are all turned over; counted, and not valid
-  int crossings = 0;        ///< pairs of boundary edges that cross or touch
+  std::string problem;            ///< one line that names the first problem found
+  int chart = -1;                 ///< 0-based chart, -1 where none applies
+  int face = -1;                  ///< 0-based input face, -1 where none applies
+  int flipped_faces = 0;          ///< faces whose UV area is not positive in the sense of their chart
+  int mirrored_charts = 0;        ///< charts whose faces are all turned over; counted, and not valid
+  int crossings = 0;              ///< pairs of boundary edges that cross or touch
+  Triangulations triangulations;  ///< told, and no reason not to be valid, where some division of each face is positive
 };
 
 /// Measures an atlas as it is. `box_aspect` is width / height of the texture that [0, 1]^2 stands for, 0 = free: with W:H all

@@ -135,10 +135,11 @@ struct RefineResult {
   Measures before;
   Measures after;
   int added_seams =
-      0;    ///< edges that were whole in the UV map and are torn: cuts, each part of an edge once, and folds that were parted
-  Gap gap;  ///< the gap that is guaranteed in the result; the least of several groups
-  double price = 0;    ///< lambda: marginal objective for one unit of log PE at the bound; 0 where it does not bind
-  int iterations = 0;  ///< Newton iterations, all stages
+      0;  ///< edges that were whole in the UV map and are torn: cuts, each part of an edge once, and folds that were parted
+  Triangulations triangulations;  ///< of the result; what was positive under a division in the input still is, else a warning
+  Gap gap;                        ///< the gap that is guaranteed in the result; the least of several groups
+  double price = 0;               ///< lambda: marginal objective for one unit of log PE at the bound; 0 where it does not bind
+  int iterations = 0;             ///< Newton iterations, all stages
   Ended ended = Ended::NotRun;
   std::vector<ChartReport> charts;  ///< one per chart of the input
   std::vector<PieceReport> pieces;  ///< one per chart of the output; empty unless Intervention::Cut

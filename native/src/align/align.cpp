@@ -252,7 +252,9 @@ AxisAlignedChart align(const Chart& source, const SidePrices& prices, double sig
   if (source.triangles.size() < kLeastTriangles) return as_it_is(source, kTurns);
   PreparedChart prepared = prepare_chart(source, prices);
   if (!prepared.opening.is_disk) return as_it_is(source, kTurns);
-  const Chart chart = prepared.mesh.to_chart(source);
+  Chart chart = prepared.mesh.to_chart(source);
+  // Two sides of a quad on the boundary may come to lie on one line: what is not convex then is divided in the end.
+  chart.guards.clear();
   std::optional<AlignedDisk> disk = aligned_disk(chart, sigma, monitor);
   if (!disk) return as_it_is(source, kTurns);
   prepared.mesh.uvs = std::move(disk->uvs);

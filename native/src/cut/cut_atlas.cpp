@@ -103,6 +103,7 @@ class Dealer {
       for (int v : loop) own.push_back(local_[v]);
     }
     for (std::size_t p = 0; p < pieces_.size(); ++p) pieces_[p].mesh.surface = Surface(std::move(shapes_[p]));
+    deal_guards(whole);
     return std::move(pieces_);
   }
 
@@ -124,6 +125,15 @@ class Dealer {
     shapes_[part_[t]].push_back(whole.surface[t]);
     piece.sources.push_back(mesh_.sources[t]);
     piece.mesh.triangle_faces.push_back(whole.triangle_faces[t]);
+  }
+
+  void deal_guards(const Chart& whole) {
+    for (Guard guard : whole.guards) {
+      // All vertices of a whole face have their one fan in the face's own piece.
+      Chart& mesh = pieces_[part_[mesh_.fan(guard.triangle[0]).front().triangle]].mesh;
+      for (int& v : guard.triangle) v = local_[v];
+      mesh.guards.push_back(guard);
+    }
   }
 
   const SplitMesh& mesh_;

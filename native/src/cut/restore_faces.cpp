@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/guards.h"
 #include "geometry/predicates.h"
 #include "solve/symmetric_dirichlet.h"
 
@@ -177,7 +178,10 @@ class Restorer {
 }  // namespace
 
 int restore_faces(Piece& piece, const Chart& source, double scale, const std::vector<bool>& border_points) {
-  return Restorer(piece, source, scale).run(border_points);
+  const int removed = Restorer(piece, source, scale).run(border_points);
+  piece.mesh.guards = guards_of_whole_faces(source, piece.mesh.triangles, piece.sources, piece.supports);
+  drop_broken_guards(piece.mesh);
+  return removed;
 }
 
 std::vector<bool> points_on_borders(const CutAtlas& atlas) {

@@ -8,8 +8,9 @@
 namespace atlas_refine {
 
 /// Takes new vertices inside the piece out wherever the triangles that they divided are positive and not much distorted without
-/// them. `source` is the chart that the piece was cut from, `scale` brings the piece's UVs to the surface's size. Vertices and
-/// triangles are numbered anew; returns how many vertices went.
+/// them; faces that are then whole, and convex, have their guards again. `source` is the chart that the piece was cut from,
+/// `scale` brings the piece's UVs to the surface's size. Vertices and triangles are numbered anew; returns how many vertices
+/// went.
 /// `border_points` tells which points must stay, because they lie on the boundary of this or another piece; empty where only this
 /// piece's own boundary counts.
 int restore_faces(Piece& piece, const Chart& source, double scale, const std::vector<bool>& border_points = {});

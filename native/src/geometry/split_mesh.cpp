@@ -15,6 +15,23 @@ namespace {
 
 Support original(int vertex) { return {{vertex, -1, -1}, {1, 0, 0}}; }
 
+/// The vertices of a face by those of its chart; empty where it is not whole. `whole` lists faces and their undivided parts.
+std::map<int, int> vertices_of_whole_face(const Chart& source, int face, const std::vector<Triangle>& parts,
+                                          const std::vector<std::pair<int, int>>& whole, const std::vector<Support>& supports) {
+  // The triangles of a chart of the input are ordered by their faces.
+  const auto own = std::equal_range(source.triangle_faces.begin(), source.triangle_faces.end(), face);
+  std::map<int, int> vertices;
+  std::ptrdiff_t count = 0;
+  for (auto part = std::lower_bound(whole.begin(), whole.end(), std::pair(face, -1)); part != whole.end() && part->first == face;
+       ++part, ++count) {
+    for (int v : parts[part->second]) {
+      const auto [known, added] = vertices.emplace(supports[v].vertices[0], v);
+      if (known->second != v) return {};  // cut along an edge inside the face
+    }
+  }
+  return count == own.second - own.first ? vertices : std::map<int, int>();
+}
+
 }  // namespace
 
 Vec2 value_at(const Support& support, const std::vector<Vec2>& values) {
@@ -60,6 +77,32 @@ RestTriangle rest_of_part(const Chart& source, int triangle, const std::array<Su
   shares << d1[1], d2[1], d1[2], d2[2];
   const Mat2 flat = source.surface[triangle].inverse_edges.inverse();
   return {(flat * shares).inverse(), source.surface[triangle].area * shares.determinant()};
+}
+
+std::vector<Guard> guards_of_whole_faces(const Chart& source, const std::vector<Triangle>& parts, const std::vector<int>& sources,
+                                         const std::vector<Support>& supports) {
+  std::vector<Guard> out;
+  if (source.guards.empty()) return out;
+  const auto is_whole = [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](int v) { return supports[v].vertices[1] < 0; });
+  };
+  std::vector<std::pair<int, int>> whole;  // faces and parts
+  for (std::size_t t = 0; t < parts.size(); ++t) {
+    if (is_whole(parts[t])) whole.emplace_back(source.triangle_faces[sources[t]], static_cast<int>(t));
+  }
+  std::sort(whole.begin(), whole.end());
+  std::map<int, int> vertices;  // of the present face: from the chart's to the parts'
+  int face = -1;
+  for (const Guard& guard : source.guards) {
+    if (guard.face != face) {
+      face = guard.face;
+      vertices = vertices_of_whole_face(source, face, parts, whole, supports);
+    }
+    if (vertices.empty()) continue;
+    Guard& own = out.emplace_back(guard);
+    for (int& v : own.triangle) v = vertices.at(v);
+  }
+  return out;
 }
 
 SplitMesh::SplitMesh(const Chart& chart) : uvs(chart.uvs), triangles(chart.triangles) {
@@ -260,6 +303,7 @@ Chart SplitMesh::to_chart(const Chart& source) const {
   }
   out.surface = Surface(std::move(parts));
   out.number = source.number;
+  out.guards = guards_of_whole_faces(source, triangles, sources, supports);
   return out;
 }
 

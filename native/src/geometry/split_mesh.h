@@ -58,7 +58,7 @@ class SplitMesh {
   /// The same as vertex loops, the longest in the UV plane first.
   std::vector<std::vector<int>> vertex_loops() const;
 
-  /// The triangles as a chart of their own, rest shapes and faces from `source`, the chart this was made from.
+  /// The triangles as a chart of their own, rest shapes, faces and guards from `source`, the chart this was made from.
   Chart to_chart(const Chart& source) const;
 
  private:
@@ -75,6 +75,11 @@ Vec3 weights_on(const Support& support, const Triangle& triangle);
 
 /// The rest shape of a part of a chart's triangle, whose corners lie where the supports say.
 RestTriangle rest_of_part(const Chart& source, int triangle, const std::array<Support, 3>& corners);
+
+/// The guards of `source` on a mesh of parts of its triangles: those of faces that are whole there, all of their triangles
+/// undivided and joined. `sources` and `supports` are those of the parts.
+std::vector<Guard> guards_of_whole_faces(const Chart& source, const std::vector<Triangle>& parts, const std::vector<int>& sources,
+                                         const std::vector<Support>& supports);
 
 /// Point `along` of the way from a to b.
 Support between(const Support& a, const Support& b, double along);

@@ -48,6 +48,19 @@ void check_corners(const Atlas& atlas) {
   }
 }
 
+/// Only that they are corners of one face: a wrong division of a polygon is passed over.
+void check_triangles(const Atlas& atlas) {
+  const auto face_of = [&](int corner) {
+    return std::upper_bound(atlas.face_offsets.begin(), atlas.face_offsets.end(), corner) - atlas.face_offsets.begin();
+  };
+  for (std::size_t t = 0; t < atlas.triangles.size(); ++t) {
+    for (int corner : atlas.triangles[t]) {
+      if (corner < 0 || corner >= atlas.corner_count() || face_of(corner) != face_of(atlas.triangles[t][0]))
+        fail(atlas, "triangle " + std::to_string(t) + " does not have three corners of one face");
+    }
+  }
+}
+
 }  // namespace
 
 std::string message_prefix(const Atlas& atlas) { return atlas.name.empty() ? "" : "object '" + atlas.name + "': "; }
@@ -58,6 +71,7 @@ void check_arrays(const Atlas& atlas) {
   }
   check_faces(atlas);
   check_corners(atlas);
+  check_triangles(atlas);
 }
 
 void check_atlas(const Atlas& atlas) {

@@ -183,7 +183,9 @@ ChartSet split_charts(const Atlas& atlas, Joining joining) {
   set.corners = number_vertices(atlas, joins, face_charts);
   set.points = at_vertices<int>(set.corners, face_charts.count, [&](int c) { return joins.places[atlas.corner_vertices[c]]; });
   set.charts = charts_with_uvs(atlas, set, joining);
-  set.defects = triangulate_faces(atlas, set.corners, sides.turned_faces, set.charts);
+  FaceTriangles faces = triangulate_faces(atlas, set.corners, sides.turned_faces, set.charts);
+  set.defects = std::move(faces.defects);
+  set.readings = std::move(faces.readings);
   set_surfaces(set.charts, vertex_positions(atlas, set.corners, set.charts.size()));
   for (Chart& chart : set.charts) chart.boundary_loops = boundary_loops(chart);
   for (std::size_t k = 0; k < set.charts.size(); ++k) set.charts[k].number = static_cast<int>(k);
@@ -202,6 +204,8 @@ ChartSet select_charts(const ChartSet& set, const std::vector<int>& charts) {
   }
   out.corners = set.corners;
   for (CornerRef& corner : out.corners) corner.chart = corner.chart < 0 ? -1 : index[corner.chart];
+  out.readings = set.readings;
+  for (FaceReading& reading : out.readings) reading.chart = reading.chart < 0 ? -1 : index[reading.chart];
   for (const FaceDefect& defect : set.defects) {
     if (index[defect.chart] >= 0) out.defects.push_back({index[defect.chart], defect.face, defect.kind});
   }
@@ -213,8 +217,7 @@ std::vector<Chart> charts_as_placed(const ChartSet& set) {
   for (std::size_t k = 0; k < charts.size(); ++k) {
     if (!set.mirrored[k]) continue;
     for (Vec2& uv : charts[k].uvs) uv.x() = -uv.x();
-    for (Triangle& t : charts[k].triangles) std::swap(t[1], t[2]);
-    charts[k].surface = turned_over(charts[k].surface);
+    turn_triangles_over(charts[k]);
     for (std::vector<int>& loop : charts[k].boundary_loops) std::reverse(loop.begin(), loop.end());
   }
   return charts;

@@ -28,16 +28,18 @@ struct ChartSet {
   std::vector<bool> mixed_winding;  ///< one per chart: neighbouring faces run along their edge in the same sense
   std::vector<Fold> folds;          ///< what had to be parted, by its first chart
   std::vector<FaceDefect> defects;  ///< faces whose triangles are not all positive; empty for a usable atlas
-  int seam_edges = 0;               ///< edges in space between two faces or more that are not joined in the UV map, nor folds
-  double seam_length = 0;           ///< their length in space, each once, without natural boundary
+  std::vector<FaceReading> readings;  ///< one per input face
+  int seam_edges = 0;                 ///< edges in space between two faces or more that are not joined in the UV map, nor folds
+  double seam_length = 0;             ///< their length in space, each once, without natural boundary
 };
 
 /// Splits an atlas by UV connectivity, as join_edges() has it: faces that share an edge (by vertex, or by equal positions) with
 /// one UV at either end belong together. Faces of opposite winding are joined too, so that no seam arises where the UVs have
 /// none. As meant, UVs are one also where they differ by noise, and charts folded along a line are parted there; exact, neither
-/// is done. A chart is mirrored where the larger part of it, by area in space, is. Polygons are triangulated here: as a fan where
-/// that is positive in the UV plane, consistent in space and free of slivers, else by a triangulation of the UV polygon.
-/// Throws RefineError(BadInput) for arrays that do not fit together, indices out of range, NaN or no faces.
+/// is done. A chart is mirrored where the larger part of it, by area in space, is. Polygons are triangulated here: as their
+/// reader does it (Atlas::triangles), else as a fan where that is positive in the UV plane, consistent in space and free of
+/// slivers, else by a triangulation of the UV polygon. Throws RefineError(BadInput) for arrays that do not fit together, indices
+/// out of range, NaN or no faces.
 ChartSet split_charts(const Atlas& atlas, Joining joining = Joining::AsMeant);
 
 /// These charts of the set alone, in this order; `seam_edges` and `seam_length` are not theirs and stay 0.
@@ -45,6 +47,5 @@ ChartSet select_charts(const ChartSet& set, const std::vector<int>& charts);
 
 /// The same charts where the input's UVs lie: mirrored charts are turned back, their triangles still counterclockwise.
 std::vector<Chart> charts_as_placed(const ChartSet& set);
-
 
 }  // namespace atlas_refine

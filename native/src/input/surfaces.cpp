@@ -51,8 +51,7 @@ double surface_scale(const Chart& chart, const Shapes& shapes) {
   return ratio > 0 && std::isfinite(ratio) ? ratio : 1;
 }
 
-void give_slivers_a_shape(const Chart& chart, const std::vector<Vec3>& positions, double mean, Shapes& shapes) {
-  const double scale = surface_scale(chart, shapes);
+void give_slivers_a_shape(const Chart& chart, const std::vector<Vec3>& positions, double scale, double mean, Shapes& shapes) {
   for (std::size_t t = 0; t < shapes.size(); ++t) {
     const Triangle& v = chart.triangles[t];
     RestTriangle& rest = shapes[t];
@@ -64,6 +63,16 @@ void give_slivers_a_shape(const Chart& chart, const std::vector<Vec3>& positions
   }
 }
 
+/// Guards without a shape in space get the one of the UVs, and are not measured.
+void give_guards_a_shape(double scale, Chart& chart) {
+  for (Guard& guard : chart.guards) {
+    const Triangle& v = guard.triangle;
+    if (guard.shape.area > 0) continue;
+    guard.share = 0;
+    guard.shape = rest_from_plane(chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]], scale);
+  }
+}
+
 }  // namespace
 
 void set_surfaces(std::vector<Chart>& charts, const std::vector<std::vector<Vec3>>& positions) {
@@ -71,19 +80,24 @@ void set_surfaces(std::vector<Chart>& charts, const std::vector<std::vector<Vec3
   for (std::size_t k = 0; k < charts.size(); ++k) shapes.push_back(shapes_in_space(charts[k], positions[k]));
   const double mean = mean_area(shapes);
   for (std::size_t k = 0; k < charts.size(); ++k) {
-    give_slivers_a_shape(charts[k], positions[k], mean, shapes[k]);
+    const double scale = surface_scale(charts[k], shapes[k]);
+    give_slivers_a_shape(charts[k], positions[k], scale, mean, shapes[k]);
+    give_guards_a_shape(scale, charts[k]);
     charts[k].surface = Surface(std::move(shapes[k]));
   }
 }
 
-Surface turned_over(const Surface& surface) {
-  Shapes turned(surface.begin(), surface.end());
-  for (RestTriangle& rest : turned) {
+void turn_triangles_over(Chart& chart) {
+  const auto turn = [](Triangle& triangle, RestTriangle& rest) {
+    std::swap(triangle[1], triangle[2]);
     // The edges change places and the flat triangle is turned over, to stay counterclockwise.
     rest.inverse_edges.row(0).swap(rest.inverse_edges.row(1));
     rest.inverse_edges.col(1) *= -1;
-  }
-  return Surface(std::move(turned));
+  };
+  Shapes turned(chart.surface.begin(), chart.surface.end());
+  for (std::size_t t = 0; t < turned.size(); ++t) turn(chart.triangles[t], turned[t]);
+  for (Guard& guard : chart.guards) turn(guard.triangle, guard.shape);
+  chart.surface = Surface(std::move(turned));
 }
 
 }  // namespace atlas_refine

@@ -12,7 +12,7 @@ namespace atlas_refine {
 namespace {
 
 constexpr double kCollapsed = 1e-6;
-constexpr double kTile = 1;  // UV units
+constexpr double kTile = 1;            // UV units
 constexpr double kOnEachOther = 1e-4;  // of the UV box: how near stacked charts lie
 
 bool has_flag(const Chart& chart, const std::vector<char>& flags) {

@@ -1,13 +1,16 @@
-// Triangles as they are, polygons by a fan or by the triangulation of their UV outline.
+// Triangles as they are, polygons as their reader divides them, by a fan or by the triangulation of their UV outline.
 #include "input/triangulate_faces.h"
 
 #include <algorithm>
 #include <numeric>
 #include <optional>
 
+#include "geometry/convex_polygon.h"
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
+#include "geometry/rest_triangle.h"
 #include "geometry/triangulate_polygon.h"
+#include "input/reader_triangles.h"
 
 namespace atlas_refine {
 
@@ -35,40 +38,102 @@ FaceDefect::Kind defect_of(const std::vector<Vec2>& uvs) {
   return uvs.size() > 3 && doubled > 0 ? FaceDefect::Kind::CrossesItself : FaceDefect::Kind::Flipped;
 }
 
-/// Triangles over the corners of a face; nothing where they cannot all be positive.
-std::optional<std::vector<Triangle>> positive_triangles(const Atlas& atlas, const std::vector<int>& corners,
-                                                        const std::vector<Vec2>& uvs) {
-  if (uvs.size() == 3) {
-    return orientation(uvs[0], uvs[1], uvs[2]) > 0 ? std::optional(polygon_fan(3)) : std::nullopt;
-  }
+bool all_positive(const std::vector<Triangle>& triangles, const std::vector<Vec2>& uvs) {
+  return std::all_of(triangles.begin(), triangles.end(),
+                     [&](const Triangle& t) { return orientation(uvs[t[0]], uvs[t[1]], uvs[t[2]]) > 0; });
+}
+
+/// One face, its corners in the order of its chart.
+struct Outline {
+  std::vector<int> corners;
+  std::vector<Vec2> uvs;
   std::vector<Vec3> positions;
-  for (int c : corners) positions.push_back(atlas.positions[atlas.corner_vertices[c]]);
-  return triangulate_polygon(uvs, positions);
+
+  int size() const { return static_cast<int>(corners.size()); }
+};
+
+/// Triangles over the corners of a face; nothing where they cannot all be positive.
+std::optional<std::vector<Triangle>> positive_triangles(int face, const Outline& outline, const ReaderTriangles& reader) {
+  if (outline.size() == 3) return all_positive(polygon_fan(3), outline.uvs) ? std::optional(polygon_fan(3)) : std::nullopt;
+  if (auto own = reader.of_face(face, outline.corners); own && all_positive(*own, outline.uvs)) return own;
+  return triangulate_polygon(outline.uvs, outline.positions);
+}
+
+FaceReading reading_of(int chart, const Outline& outline, bool has_triangles) {
+  const bool fan = all_positive(polygon_fan(outline.size()), outline.uvs);
+  return {chart, fan, has_triangles, outline.size() == 3 ? fan : is_strictly_convex(outline.uvs)};
+}
+
+/// Whether both are one triangle; corners may start anywhere.
+bool same_triangle(Triangle a, Triangle b) {
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  return a == b;
+}
+
+/// What else than its own triangles is to stay positive; see triangulate_faces().
+std::vector<Triangle> guards_of(const Outline& outline, const FaceReading& reading, const std::vector<Triangle>& own) {
+  std::vector<Triangle> wanted;
+  if (reading.diagonals && (outline.size() == 4 || is_clearly_convex(outline.uvs))) {
+    for (int i = 0; i < outline.size(); ++i) wanted.push_back(corner_triangle(i, outline.size()));
+  } else if (reading.fan) {
+    wanted = polygon_fan(outline.size());
+  }
+  std::erase_if(wanted, [&](const Triangle& t) {
+    const bool is_own = std::any_of(own.begin(), own.end(), [&](const Triangle& other) { return same_triangle(t, other); });
+    return is_own || rest_from_plane(outline.uvs[t[0]], outline.uvs[t[1]], outline.uvs[t[2]], 1).area == 0;
+  });
+  return wanted;
+}
+
+/// Guards with their shapes in space, where the polygon is clearly convex there. Half of a quad's area then goes to either
+/// diagonal.
+std::vector<Guard> shaped(int face, const Outline& outline, const std::vector<Triangle>& triangles) {
+  const bool in_space = is_clearly_convex(outline.positions);
+  const double share = in_space && outline.size() == 4 && is_clearly_convex(outline.uvs) ? 0.5 : 0;
+  std::vector<Guard> out;
+  for (const Triangle& t : triangles) {
+    const auto& p = outline.positions;
+    out.push_back({t, face, in_space ? rest_from_space(p[t[0]], p[t[1]], p[t[2]]) : RestTriangle{Mat2::Zero(), 0}, share});
+  }
+  return out;
 }
 
 }  // namespace
 
-std::vector<FaceDefect> triangulate_faces(const Atlas& atlas, const std::vector<CornerRef>& corners,
-                                          const std::vector<bool>& turned_faces, std::vector<Chart>& charts) {
-  std::vector<FaceDefect> defects;
-  std::vector<Vec2> uvs;
+FaceTriangles triangulate_faces(const Atlas& atlas, const std::vector<CornerRef>& corners, const std::vector<bool>& turned_faces,
+                                std::vector<Chart>& charts) {
+  FaceTriangles out;
+  const ReaderTriangles reader(atlas);
   for (int face = 0; face < atlas.face_count(); ++face) {
-    const std::vector<int> own = face_corners(atlas, face, turned_faces[face]);
-    const int k = corners[own[0]].chart;
+    Outline outline{face_corners(atlas, face, turned_faces[face]), {}, {}};
+    const int k = corners[outline.corners[0]].chart;
     Chart& chart = charts[k];
-    uvs.clear();
-    for (int c : own) uvs.push_back(chart.uvs[corners[c].vertex]);
-    std::optional<std::vector<Triangle>> triangles = positive_triangles(atlas, own, uvs);
+    for (int c : outline.corners) {
+      outline.uvs.push_back(chart.uvs[corners[c].vertex]);
+      outline.positions.push_back(atlas.positions[atlas.corner_vertices[c]]);
+    }
+    const auto on_chart = [&](const Triangle& t) -> Triangle {
+      return {corners[outline.corners[t[0]]].vertex, corners[outline.corners[t[1]]].vertex,
+              corners[outline.corners[t[2]]].vertex};
+    };
+    std::optional<std::vector<Triangle>> triangles = positive_triangles(face, outline, reader);
+    out.readings.push_back(reading_of(k, outline, triangles.has_value()));
     if (!triangles) {
-      defects.push_back({k, face, defect_of(uvs)});
-      triangles = polygon_fan(static_cast<int>(own.size()));
+      out.defects.push_back({k, face, defect_of(outline.uvs)});
+      triangles = polygon_fan(outline.size());
     }
     for (const Triangle& t : *triangles) {
-      chart.triangles.push_back({corners[own[t[0]]].vertex, corners[own[t[1]]].vertex, corners[own[t[2]]].vertex});
+      chart.triangles.push_back(on_chart(t));
       chart.triangle_faces.push_back(face);
     }
+    if (outline.size() == 3 || !out.readings.back().ears) continue;
+    for (Guard& guard : shaped(face, outline, guards_of(outline, out.readings.back(), *triangles))) {
+      guard.triangle = on_chart(guard.triangle);
+      chart.guards.push_back(guard);
+    }
   }
-  return defects;
+  return out;
 }
 
 }  // namespace atlas_refine

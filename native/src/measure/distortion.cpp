@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
 
 namespace atlas_refine {
@@ -51,9 +52,9 @@ double DirichletSums::best_energy() const {
 
 DirichletSums dirichlet_sums(const Chart& chart) {
   DirichletSums sums;
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    add_triangle(uv_edges(chart, t), chart.surface[t].inverse_edges, chart.surface[t].area, sums);
-  }
+  for_each_element(chart, [&](const Triangle& triangle, const RestTriangle& shape, double share, int) {
+    add_triangle(uv_edges(triangle, chart.uvs), shape.inverse_edges, share * shape.area, sums);
+  });
   return sums;
 }
 
@@ -74,11 +75,11 @@ DirichletSums dirichlet_sums(const std::vector<Chart>& charts) {
 DirichletSums dirichlet_sums_between(const std::vector<Chart>& from, const std::vector<Chart>& to) {
   DirichletSums sums;
   for (std::size_t k = 0; k < from.size(); ++k) {
-    for (std::size_t t = 0; t < from[k].triangles.size(); ++t) {
-      const Triangle& v = from[k].triangles[t];
-      const RestTriangle rest = rest_from_plane(from[k].uvs[v[0]], from[k].uvs[v[1]], from[k].uvs[v[2]], 1);
-      if (rest.area > 0) add_triangle(uv_edges(to[k], t), rest.inverse_edges, rest.area, sums);
-    }
+    const std::vector<Vec2>& uvs = from[k].uvs;
+    for_each_element(to[k], [&](const Triangle& v, const RestTriangle&, double share, int) {
+      const RestTriangle rest = rest_from_plane(uvs[v[0]], uvs[v[1]], uvs[v[2]], 1);
+      if (rest.area > 0) add_triangle(uv_edges(v, to[k].uvs), rest.inverse_edges, share * rest.area, sums);
+    });
   }
   return sums;
 }

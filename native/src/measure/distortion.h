@@ -18,13 +18,14 @@ struct DirichletSums {
   double best_energy() const;  ///< the energy at that t
 };
 
-/// Triangles without UV area, whose energy is infinite, are left out.
+/// Over triangles and guards. Those without UV area, whose energy is infinite, are left out.
 DirichletSums dirichlet_sums(const Chart& chart);
 DirichletSums dirichlet_sums(const std::vector<Chart>& charts);
 /// The same of flat arrays: one rest shape per triangle.
 DirichletSums dirichlet_sums(const std::vector<RestTriangle>& rest, const std::vector<Triangle>& triangles,
                              const std::vector<Vec2>& uvs);
-/// From the UVs of `from` to those of `to`: best_energy() is E_2. The charts must have the same triangles.
+/// From the UVs of `from` to those of `to`: best_energy() is E_2. The charts must have the same triangles; the guards are those
+/// of `to`.
 DirichletSums dirichlet_sums_between(const std::vector<Chart>& from, const std::vector<Chart>& to);
 
 /// max(s1, 1 / s2) of every triangle's Jacobian (rest -> UV) times `scale`.

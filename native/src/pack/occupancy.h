@@ -16,7 +16,7 @@ class Occupancy {
  public:
   explicit Occupancy(int width);
 
-  int height() const { return height_; }  ///< rows up to the topmost taken cell
+  int height() const { return height_; }       ///< rows up to the topmost taken cell
   std::int64_t work() const { return work_; }  ///< words looked at so far
 
   /// Lowest, then leftmost place of the raster with y <= highest; false where

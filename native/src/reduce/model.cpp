@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "geometry/collision.h"
+#include "geometry/guards.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "reduce/contact_set.h"
@@ -36,8 +37,10 @@ void flatten(const std::vector<Chart>& charts, ReduceModel& model) {
   int count = 0;
   for (const Chart& chart : charts) {
     model.first_vertex.push_back(count);
-    for (const Triangle& t : chart.triangles) model.surface_triangles.push_back({count + t[0], count + t[1], count + t[2]});
-    model.surface.insert(model.surface.end(), chart.surface.begin(), chart.surface.end());
+    for_each_element(chart, [&](const Triangle& t, const RestTriangle& shape, double share, int) {
+      model.surface_triangles.push_back({count + t[0], count + t[1], count + t[2]});
+      model.surface.push_back({shape.inverse_edges, share * shape.area});
+    });
     for (const Vec2& uv : chart.uvs) model.start.x.push_back(uv / model.objective.unit);
     count += chart.vertex_count();
   }
@@ -69,7 +72,7 @@ void keep_bending(const std::vector<Chart>& charts, ReduceModel& model) {
   double fixed_weight = 0;
   std::size_t t = 0;
   for (std::size_t p = 0; p < charts.size(); ++p) {
-    for (std::size_t end = t + charts[p].triangles.size(); t < end; ++t) {
+    for (std::size_t end = t + charts[p].triangles.size() + charts[p].guards.size(); t < end; ++t) {
       const Triangle& v = model.surface_triangles[t];
       if (bends(model.freedom, p)) {
         model.triangles.push_back(v);

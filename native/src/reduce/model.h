@@ -22,11 +22,11 @@ struct ReduceState {
 /// moves with have an empty equation.
 struct ReduceModel {
   std::vector<int> first_vertex;            ///< of each piece; then the number of vertices
-  std::vector<Triangle> triangles;          ///< of the pieces that bend
+  std::vector<Triangle> triangles;          ///< of the pieces that bend: of each its own, then its guards
   Objective objective;                      ///< of these
   double held_energy = 0;                   ///< of the pieces that only move: added to the objective
-  std::vector<Triangle> surface_triangles;  ///< of all pieces
-  std::vector<RestTriangle> surface;        ///< of these, in model units: what max_distortion is measured on
+  std::vector<Triangle> surface_triangles;  ///< of all pieces, guards too
+  std::vector<RestTriangle> surface;        ///< of these, in model units, areas times share: what max_distortion is measured on
   std::vector<double> masses;               ///< one per node: a third of the triangles around it; 1 for the box
   Boundary boundary;                        ///< all fixed pieces count as one: the first of them
   Freedoms freedom;                         ///< one per piece; empty where all bend

@@ -238,7 +238,7 @@ ReduceResult result_of(const Task& task, const Iterate& best, ReduceStatus statu
   auto next = energies.begin();
   for (const Chart& chart : task.problem.charts) {
     out.triangle_energy.emplace_back(next, next + static_cast<std::ptrdiff_t>(chart.triangles.size()));
-    next += static_cast<std::ptrdiff_t>(chart.triangles.size());
+    next += static_cast<std::ptrdiff_t>(chart.triangles.size() + chart.guards.size());
   }
   out.contact_forces = by_piece(model, contact_forces(model, best.state, find_contacts(model, best.state), stiffness), 1);
   return out;

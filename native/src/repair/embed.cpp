@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
 #include "geometry/tutte.h"
 #include "measure/certificate.h"
@@ -99,7 +100,9 @@ std::optional<Chart> on_disk(const Chart& chart, int threads, Monitor& monitor) 
 
 }  // namespace
 
-std::optional<Chart> embed(const Chart& chart, int threads, Monitor& monitor) {
+std::optional<Chart> embed(const Chart& guarded, int threads, Monitor& monitor) {
+  Chart chart = guarded;
+  chart.guards.clear();
   std::optional<Chart> start = on_disk(chart, threads, monitor);
   if (!start) return std::nullopt;
   if (Chart better = stretched(*start); certify_charts({better}).valid()) start = std::move(better);
@@ -110,8 +113,11 @@ std::optional<Chart> embed(const Chart& chart, int threads, Monitor& monitor) {
     monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
   });
   if (!(result.energy <= kCollapsed)) return std::nullopt;
-  start->uvs = std::move(result.uvs[0]);
-  return start;
+  // Polygons that are convex in the end are guarded from here on.
+  Chart embedded = guarded;
+  embedded.uvs = std::move(result.uvs[0]);
+  drop_broken_guards(embedded);
+  return embedded;
 }
 
 }  // namespace atlas_refine

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cut/open_closed.h"
+#include "geometry/guards.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "repair/bad_triangles.h"
@@ -146,6 +147,7 @@ void repair_chart(const Chart& chart, int index, const RepairOptions& options, M
   }
   if (std::find(bad.begin(), bad.end(), 0) != bad.end())
     repair.distortion_to_input = distortion_to_good(chart, result->atlas.pieces[0].mesh);
+  for (Piece& piece : result->atlas.pieces) drop_broken_guards(piece.mesh);
   append(std::move(result->atlas), index, out.atlas);
   out.repairs.push_back(repair);
 }

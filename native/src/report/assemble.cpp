@@ -154,18 +154,18 @@ AssembledAtlas kept(const InputAtlas& whole, const Whole& pieces) {
   return out;
 }
 
-AssembledAtlas divided(const InputAtlas& whole, bool several, Stored stored, Whole& pieces) {
+AssembledAtlas divided(const InputAtlas& whole, bool several, const AssembleOptions& options, Whole& pieces) {
   add_untouched(whole, pieces);
   // Within one part both sides of each seam are divided alike already.
   if (several) match_pieces(pieces.atlas, whole.set.charts, whole.set.points, pieces.uvs);
-  CutFaces faces = cut_faces(whole.atlas, whole.set, pieces.atlas);
+  CutFaces faces = cut_faces(whole.atlas, whole.set, pieces.atlas, {pieces.uvs, options.triangulate});
   AssembledAtlas out;
   out.mesh = {whole.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
   for (std::size_t c = 0; c < faces.corners.size(); ++c) {
     const auto [p, vertex] = faces.corners[c];
     const bool own = faces.mesh.corner_weights[c][0] == 1 && pieces.own[p];
     out.mesh.corner_uvs.push_back(own ? whole.atlas.corner_uvs[faces.mesh.corner_sources[c][0]]
-                                      : as_stored(pieces.uvs[p][vertex], stored));
+                                      : as_stored(pieces.uvs[p][vertex], options.stored));
   }
   out.cut = std::move(faces.mesh);
   return out;
@@ -184,7 +184,7 @@ AssembledAtlas assemble(const InputAtlas& whole, const Participants& participant
   const bool cut = !pieces.atlas.seams.empty() || !pieces.atlas.points.empty();
   const bool several = parts.size() > 1 || !participants.left.empty() || !participants.followers.empty();
   const int cut_edges = static_cast<int>(pieces.atlas.seams.size());
-  AssembledAtlas out = cut && options.divide ? divided(whole, several, options.stored, pieces) : kept(whole, pieces);
+  AssembledAtlas out = cut && options.divide ? divided(whole, several, options, pieces) : kept(whole, pieces);
   out.cut_edges = cut_edges;
   return out;
 }

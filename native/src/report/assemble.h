@@ -28,7 +28,8 @@ struct AssembledAtlas {
 
 struct AssembleOptions {
   Stored stored = Stored::Double;
-  bool divide = true;  ///< cuts may divide faces
+  bool divide = true;        ///< cuts may divide faces
+  bool triangulate = false;  ///< as CutFaceOptions has it
 };
 
 /// Followers get the UVs, and the cuts, of their leaders; charts of no part keep their own UVs, bit for bit. Where some part is

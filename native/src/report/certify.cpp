@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "atlas_refine/error.h"
+#include "geometry/predicates.h"
 #include "input/check_atlas.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
@@ -34,8 +35,8 @@ std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, cons
 }
 
 /// The faces of the charts that take part as they come out, and what each of their corners stands for.
-CutFaces faces_of(const InputAtlas& input, const CutAtlas& atlas, bool divided) {
-  if (divided) return cut_faces(input.atlas, input.set, atlas);
+CutFaces faces_of(const InputAtlas& input, const CutAtlas& atlas, const CutFaceOptions& options, bool divided) {
+  if (divided) return cut_faces(input.atlas, input.set, atlas, options);
   CutFaces out;
   out.positions = input.atlas.positions;
   out.mesh.face_offsets = {0};
@@ -92,6 +93,46 @@ void require_gap(const Atlas& output, const std::vector<Chart>& stored, const Fr
   Refusal refuse(output);
   refuse("two charts are " + number_text("%.6g", between / box.norm()) + " of the diagonal apart, nearer than the gap of " +
          number_text("%g", gap.value));
+}
+
+/// Guards are positive to the end: what is not is a fault of ours, but for those that are thin enough for single precision to
+/// bend.
+void require_guards(const Atlas& output, const std::vector<Chart>& stored, Stored precision) {
+  for (int p = 0; p < static_cast<int>(stored.size()); ++p) {
+    const std::vector<Vec2>& uvs = stored[p].uvs;
+    for (const Guard& guard : stored[p].guards) {
+      const Triangle& t = guard.triangle;
+      if (orientation(uvs[t[0]], uvs[t[1]], uvs[t[2]]) > 0) continue;
+      if (precision == Stored::Float32 && guard.share == 0) continue;
+      Refusal refuse(output);
+      refuse("face " + std::to_string(guard.face) + " is flipped for readers that divide it otherwise", p, guard.face);
+    }
+  }
+}
+
+/// Faces that lost a division that was positive in the input; `after` holds those that take part.
+int worse_faces(const std::vector<FaceReading>& before, const std::vector<FaceReading>& after) {
+  int count = 0;
+  auto now = after.begin();
+  for (const FaceReading& then : before) {
+    if (then.chart < 0) continue;
+    count += now->fan < then.fan || now->ears < then.ears || now->diagonals < then.diagonals;
+    ++now;
+  }
+  return count;
+}
+
+/// Atlas::triangles on the corners of the faces that take part.
+std::vector<std::array<int, 3>> readers_triangles(const InputAtlas& input) {
+  std::vector<std::array<int, 3>> out;
+  if (input.atlas.triangles.empty()) return out;
+  std::vector<int> number;
+  int count = 0;
+  for (const CornerRef& corner : input.set.corners) number.push_back(corner.chart >= 0 ? count++ : -1);
+  for (const auto& t : input.atlas.triangles) {
+    if (number[t[0]] >= 0) out.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  }
+  return out;
 }
 
 int faces_among(const Chart& chart) {
@@ -178,13 +219,15 @@ Vec2 as_stored(const Vec2& uv, Stored stored) {
 
 CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap& gap, const RefineOptions& options) {
   const bool cut = !atlas.seams.empty() || !atlas.points.empty();
-  CutFaces faces = faces_of(input, atlas, cut && divides_faces(options));
-  Atlas output{input.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
   CertifiedAtlas out{.stored = meshes_of(atlas)};
   out.uvs = stored_uvs(out.stored, atlas.frame, input.origin, options);
   // Charts are only cut where none is fixed.
   const Freedoms freedom = cut ? Freedoms{} : freedom_of(input.set, options);
   restore_fixed(input, freedom, out.uvs);
+  const bool divided = cut && divides_faces(options);
+  CutFaces faces = faces_of(input, atlas, {out.uvs, options.triangulate}, divided);
+  Atlas output{input.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
+  if (!divided) output.triangles = readers_triangles(input);
   for (const CornerRef& corner : faces.corners) output.corner_uvs.push_back(out.uvs[corner.chart][corner.vertex]);
   ChartSet set = split_charts(output, Joining::Exact);
   // Where the charts are others than before they are refused below.
@@ -195,8 +238,11 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
   out.after = measure_split(set, options.box_aspect);
   measure_in_texture(set.charts, freedom_after, input.origin, options.box_aspect, out.after);
   for (std::size_t p = 0; p < out.stored.size(); ++p) out.stored[p].uvs = out.uvs[p];
+  require_guards(output, out.stored, options.stored);
   stretch_to_texture(out.stored, options.box_aspect);
   require_gap(output, out.stored, freedom, gap, options.box_aspect);
+  out.triangulations = count_readings(set.readings);
+  if (!divided) out.worse_faces = worse_faces(input.set.readings, set.readings);
   // The same triangles in the same order as the input's: only then can E_2 be told.
   out.after.distortion_to_input = dirichlet_sums_between(pieces_of_input(input, atlas), out.stored).best_energy();
   out.charts = chart_reports(input, out.stored, charts_of(atlas));

@@ -11,6 +11,8 @@ namespace atlas_refine {
 struct CertifiedAtlas {
   std::vector<std::vector<Vec2>> uvs;  ///< of each piece
   Measures after;                      ///< but for seams
+  Triangulations triangulations;
+  int worse_faces = 0;  ///< faces of which a division that was positive in the input no longer is
   std::vector<ChartReport> charts;
   std::vector<PieceReport> pieces;  ///< only where the atlas was cut
   std::vector<Chart> stored;        ///< the pieces in units of the texture, on their surfaces
@@ -20,8 +22,8 @@ struct CertifiedAtlas {
 Vec2 as_stored(const Vec2& uv, Stored stored);
 
 /// Scales the pieces into the unit square at the input's origin, rounds their UVs as they will be stored, and tests just those
-/// values with exact predicates: every triangle positive, no borders crossing or touching, the gap kept, the seams those that
-/// were meant. Pure: the same arguments give the same answer. Throws RefineError(NotCertified).
+/// values with exact predicates: every triangle and guard positive, no borders crossing or touching, the gap kept, the seams
+/// those that were meant. Pure: the same arguments give the same answer. Throws RefineError(NotCertified).
 CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap& gap, const RefineOptions& options);
 
 /// Reports of the input's charts where nothing was done to them.

@@ -6,6 +6,9 @@
 #include <map>
 #include <optional>
 
+#include "geometry/convex_polygon.h"
+#include "geometry/predicates.h"
+
 namespace atlas_refine {
 namespace {
 
@@ -14,6 +17,7 @@ struct Sources {
   const Atlas& atlas;
   const ChartSet& set;
   const CutAtlas& cut;
+  const CutFaceOptions& options;
 
   int begin(int face) const { return atlas.face_offsets[face]; }
   int end(int face) const { return atlas.face_offsets[face + 1]; }
@@ -80,14 +84,6 @@ std::vector<int> outline_of(const Chart& mesh, const std::vector<int>& triangles
     walk = next[walk];
   } while (walk != loop.front() && loop.size() <= next.size());
   return loop.size() == next.size() ? loop : std::vector<int>();
-}
-
-/// The outlines of what the part of a face becomes, wound as in the chart.
-std::vector<std::vector<int>> outlines_of(const Chart& mesh, const FacePart& part, bool divide) {
-  if (std::vector<int> outline = outline_of(mesh, part.triangles); !divide && !outline.empty()) return {std::move(outline)};
-  std::vector<std::vector<int>> out;
-  for (int t : part.triangles) out.emplace_back(mesh.triangles[t].begin(), mesh.triangles[t].end());
-  return out;
 }
 
 /// The points that pieces use.
@@ -207,6 +203,52 @@ std::vector<Vec3> positions_with(const Sources& in, const std::vector<NewVertex>
   return out;
 }
 
+/// True where every division of the outline of an undivided face that was positive in the input still is.
+bool reads_as_before(const FaceReading& before, const std::vector<Vec2>& uvs) {
+  bool fan = true;
+  for (std::size_t i = 2; i < uvs.size(); ++i) fan = fan && orientation(uvs[0], uvs[i - 1], uvs[i]) > 0;
+  return fan >= before.fan && is_strictly_convex(uvs) >= before.diagonals;
+}
+
+/// Charts that stay mirrored are read from behind.
+bool is_mirrored(const std::vector<Vec2>& uvs, const Triangle& own) {
+  return orientation(uvs[own[0]], uvs[own[1]], uvs[own[2]]) < 0;
+}
+
+/// Whether a part of a face may be written as one polygon; `outline` starts where the input's face does.
+bool stays_polygon(const Sources& in, const UsedPoints& points, const std::vector<Vec3>& positions, int face,
+                   const FacePart& part, const std::vector<int>& outline) {
+  const Piece& p = in.cut.pieces[part.piece];
+  const std::vector<Vec2>& stored = in.options.uvs[part.piece];
+  const Vec2 side(is_mirrored(stored, p.mesh.triangles[part.triangles.front()]) ? -1 : 1, 1);
+  std::vector<Vec2> uvs;
+  std::vector<Vec3> corners;
+  bool is_whole = static_cast<int>(outline.size()) == in.end(face) - in.begin(face);
+  for (int v : outline) {
+    const int corner = p.vertices[v] >= 0 ? in.corner_of(face, p.vertices[v]) : -1;
+    is_whole = is_whole && corner >= 0;
+    uvs.push_back(stored[v].cwiseProduct(side));
+    corners.push_back(corner >= 0 ? in.position(corner) : positions[in.atlas.positions.size() + points.index[p.points[v]]]);
+  }
+  if (is_whole) return reads_as_before(in.set.readings[face], uvs);
+  // A mesh of triangles stays one. A corner in the middle of a side would make a polygon that other tools may lay flat.
+  const bool of_triangle = in.end(face) - in.begin(face) == 3;
+  return !of_triangle && !in.options.triangulate && is_clearly_convex(uvs) && is_clearly_convex(corners);
+}
+
+/// The outlines of what the part of a face becomes, wound as in the chart.
+std::vector<std::vector<int>> outlines_of(const Sources& in, const UsedPoints& points, const std::vector<Vec3>& positions,
+                                          int face, const FacePart& part) {
+  const Piece& piece = in.cut.pieces[part.piece];
+  if (std::vector<int> outline = outline_of(piece.mesh, part.triangles); !outline.empty()) {
+    start_at_lowest_corner(in, face, piece, outline);
+    if (stays_polygon(in, points, positions, face, part, outline)) return {std::move(outline)};
+  }
+  std::vector<std::vector<int>> out;
+  for (int t : part.triangles) out.emplace_back(piece.mesh.triangles[t].begin(), piece.mesh.triangles[t].end());
+  return out;
+}
+
 std::vector<std::array<int, 2>> seams_of(const Sources& in, const UsedPoints& points) {
   std::vector<std::vector<int>> vertex_of_chart;  // the input's, of each chart's vertex
   for (const Chart& chart : in.set.charts) vertex_of_chart.emplace_back(chart.vertex_count(), -1);
@@ -225,27 +267,24 @@ std::vector<std::array<int, 2>> seams_of(const Sources& in, const UsedPoints& po
 
 }  // namespace
 
-CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut) {
-  const Sources in{atlas, set, cut};
+CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut, const CutFaceOptions& options) {
+  const Sources in{atlas, set, cut, options};
   const std::vector<std::vector<FacePart>> parts = parts_of_faces(in);
   UsedPoints points = used_points(in, parts);
   CutFaces out;
   out.mesh.face_offsets = {0};
+  out.positions = positions_with(in, points.vertices);
   for (int f = 0; f < atlas.face_count(); ++f) {
     if (parts[f].empty()) continue;
     const bool turned = is_turned(in, f);
-    // A triangle with a corner in the middle of a side would be a polygon that other tools may lay flat: it is divided.
-    const bool triangle = in.end(f) - in.begin(f) == 3;
     for (const FacePart& part : parts[f]) {
-      const Piece& piece = cut.pieces[part.piece];
-      for (std::vector<int>& outline : outlines_of(piece.mesh, part, triangle)) {
+      for (std::vector<int>& outline : outlines_of(in, points, out.positions, f, part)) {
         if (turned) std::reverse(outline.begin(), outline.end());
-        start_at_lowest_corner(in, f, piece, outline);
+        start_at_lowest_corner(in, f, cut.pieces[part.piece], outline);
         add_face(in, points, f, part.piece, outline, out);
       }
     }
   }
-  out.positions = positions_with(in, points.vertices);
   out.mesh.new_seams = seams_of(in, points);
   out.mesh.new_vertices = std::move(points.vertices);
   return out;

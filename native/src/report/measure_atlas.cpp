@@ -92,6 +92,7 @@ Validity validate_split(const ChartSet& set, const Freedoms& freedom) {
   Validity validity = certify_charts(charts_as_placed(set), set.points, freedom);
   // Faces count here, and an n-gon counts where its outline crosses itself though some triangulation of it were positive.
   validity.flipped_faces = static_cast<int>(set.defects.size());
+  validity.triangulations = count_readings(set.readings);
   for (std::size_t k = set.mirrored.size(); k-- > 0;) {
     if (!set.mirrored[k]) continue;
     ++validity.mirrored_charts;
@@ -105,6 +106,17 @@ Validity validate_split(const ChartSet& set, const Freedoms& freedom) {
     validity.face = set.defects.front().face;
   }
   return validity;
+}
+
+Triangulations count_readings(const std::vector<FaceReading>& readings) {
+  Triangulations out;
+  for (const FaceReading& reading : readings) {
+    if (reading.chart < 0) continue;
+    out.fan_flipped += !reading.fan;
+    out.ears_flipped += !reading.ears;
+    out.not_convex += !reading.diagonals;
+  }
+  return out;
 }
 
 }  // namespace atlas_refine

@@ -38,4 +38,7 @@ Measures measure_split(const ChartSet& set, double box_aspect);
 
 Validity validate_split(const ChartSet& set, const Freedoms& freedom = {});
 
+/// How many faces are not positive under each division.
+Triangulations count_readings(const std::vector<FaceReading>& readings);
+
 }  // namespace atlas_refine

@@ -45,6 +45,12 @@ std::vector<double> areas_of(const InputAtlas& whole, const std::vector<Done>& d
   return out;
 }
 
+Triangulations sum(Triangulations a, const Triangulations& b) {
+  for (auto count : {&Triangulations::fan_flipped, &Triangulations::ears_flipped, &Triangulations::not_convex})
+    a.*count += b.*count;
+  return a;
+}
+
 RectangleReport sum(RectangleReport a, const RectangleReport& b) {
   for (auto count : {&RectangleReport::tutte_charts, &RectangleReport::boxed_charts, &RectangleReport::holes_cut,
                      &RectangleReport::extra_corners, &RectangleReport::trails})
@@ -70,6 +76,7 @@ void summarise(const InputAtlas& whole, const Participants& participants, const 
   for (std::size_t k = 0; k < done.size(); ++k) {
     const auto& [part, outcome] = done[k];
     if (k == 0 || outcome.gap.value < result.gap.value) result.gap = outcome.gap;
+    result.triangulations = sum(result.triangulations, outcome.triangulations);
     result.intervention = std::max(result.intervention, outcome.intervention);
     result.bound_met = result.bound_met && outcome.bound_met;
     result.price = std::max(result.price, outcome.price);

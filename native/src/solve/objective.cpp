@@ -3,10 +3,14 @@
 
 #include <cmath>
 
+#include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
 
 namespace atlas_refine {
 namespace {
+
+/// Of the area of a guard that no measure counts: enough that it bends before it stops the others, too little to be felt.
+constexpr double kBarrierShare = 0.01;
 
 double surface_area(const std::vector<Chart>& pieces) {
   double area = 0;
@@ -28,12 +32,10 @@ std::vector<double> length_factors(const std::vector<Chart>& pieces, const std::
   return factors;
 }
 
-/// Of triangle t of piece p, at the surface's size.
-Mat2 wanted_shape(const std::vector<Chart>& pieces, const ObjectiveRequest& request, std::size_t p, std::size_t t) {
-  const Mat2& own = pieces[p].surface[t].inverse_edges;
+/// Of a triangle of piece p, at the surface's size.
+Mat2 wanted_shape(const ObjectiveRequest& request, std::size_t p, const Triangle& v, const Mat2& own) {
   if (request.reference_uvs.empty()) return own;
   const std::vector<Vec2>& uvs = request.reference_uvs[p];
-  const Triangle& v = pieces[p].triangles[t];
   const RestTriangle rest = rest_from_plane(uvs[v[0]], uvs[v[1]], uvs[v[2]], request.reference_scale[p]);
   return rest.area > 0 ? rest.inverse_edges : own;
 }
@@ -46,12 +48,12 @@ Objective make_objective(const std::vector<Chart>& pieces, const ObjectiveReques
   const std::vector<double> factors = length_factors(pieces, request.density);
   double sum = 0;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    for (std::size_t t = 0; t < pieces[p].triangles.size(); ++t) {
-      out.inverse_edges.push_back(out.unit / factors[p] * wanted_shape(pieces, request, p, t));
-      const double importance = request.importance.empty() ? 1 : request.importance[pieces[p].triangle_faces[t]];
-      out.weight.push_back(pieces[p].surface[t].area * importance);
+    for_each_element(pieces[p], [&](const Triangle& triangle, const RestTriangle& shape, double share, int face) {
+      out.inverse_edges.push_back(out.unit / factors[p] * wanted_shape(request, p, triangle, shape.inverse_edges));
+      const double importance = request.importance.empty() ? 1 : request.importance[face];
+      out.weight.push_back(shape.area * (share > 0 ? share : kBarrierShare) * importance);
       sum += out.weight.back();
-    }
+    });
   }
   for (double& weight : out.weight) weight /= sum;
   return out;

@@ -1,5 +1,5 @@
-// What distortion is reduced against: a wanted shape and a weight for every triangle (section 3.4 "Distortion type", section 4
-// "Local control").
+// What distortion is reduced against: a wanted shape and a weight for every triangle and guard (section 3.4 "Distortion type",
+// section 4 "Local control").
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace atlas_refine {
 
-/// Shapes and weights of all triangles of all pieces, in order. Solver units: lengths are those of the surface / `unit`, so that
-/// the surface has area 1.
+/// Shapes and weights of all elements of all pieces, in order: of each piece its triangles, then its guards. Solver units:
+/// lengths are those of the surface / `unit`, so that the surface has area 1.
 struct Objective {
   std::vector<Mat2> inverse_edges;  ///< of the wanted shape, as RestTriangle::inverse_edges
-  std::vector<double> weight;       ///< >= 0, sum 1: areas on the surface times importance
+  std::vector<double> weight;       ///< >= 0, sum 1: areas on the surface times share times importance
   double unit = 1;                  ///< sqrt(area of the surface)
 };
 
