@@ -12,8 +12,8 @@
 namespace atlas_refine {
 namespace {
 
-bool tells(const std::vector<std::string>& lines, const std::string& part) {
-  return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) { return line.find(part) != std::string::npos; });
+bool tells(const std::vector<Repair>& repairs, const std::string& text) {
+  return std::any_of(repairs.begin(), repairs.end(), [&](const Repair& repair) { return describe(repair) == text; });
 }
 
 /// An L of quads: at 0.75 of its box it has to be bent or cut to reach 0.9.
@@ -57,7 +57,7 @@ TEST(Sheets, CoincidentVerticesTearNothing) {
 }
 
 TEST(Sheets, MirroredHalvesArePartedToldAndCounted) {
-  const RefineResult result = refine(mirrored_halves());
+  const RefineResult result = refine(mirrored_halves(), {.stacks = Stacks::Separate});
   EXPECT_EQ(result.after.chart_count, 2);
   EXPECT_EQ(result.added_seams, 4);
   EXPECT_EQ(result.before.seam_edges + 4, result.after.seam_edges);
@@ -65,9 +65,19 @@ TEST(Sheets, MirroredHalvesArePartedToldAndCounted) {
   EXPECT_TRUE(tells(result.repairs, "chart 0: mirrored, turned over"));
 }
 
+TEST(Sheets, MirroredHalvesThatGoTogetherAreNotTorn) {
+  Atlas atlas = mirrored_halves();
+  for (Vec2& uv : atlas.corner_uvs) uv = Vec2(0.8 * uv.x() - 0.6 * uv.y(), 0.6 * uv.x() + 0.8 * uv.y());
+  const RefineResult result = refine(atlas, {.stacks = Stacks::Keep});
+  EXPECT_EQ(result.intervention, Intervention::Moved);
+  EXPECT_EQ(result.added_seams, 0);
+  EXPECT_EQ(result.after.seam_edges, result.before.seam_edges);
+  EXPECT_FALSE(tells(result.repairs, "charts 0, 1: folded onto each other along 4 edges, parted"));
+}
+
 TEST(Sheets, FrontAndBackAreTwoCharts) {
   for (const Atlas& atlas : {double_sided(5, 4), unwelded(double_sided(5, 4))}) {
-    const RefineResult result = refine(atlas);
+    const RefineResult result = refine(atlas, {.stacks = Stacks::Separate});
     EXPECT_EQ(result.charts.size(), 2u);
     EXPECT_EQ(result.added_seams, 0);
     EXPECT_NEAR(result.after.distortion, result.before.distortion, 1e-12);

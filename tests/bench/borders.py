@@ -31,6 +31,8 @@ def segment_distance(p, q, r, s):
 
 def near_pairs(a, b, reach):
     """Yields index arrays i, j with every pair of segments no farther than `reach` apart among them, some twice."""
+    if not len(a):
+        return
     length = np.linalg.norm(b - a, axis=1)
     piece = max(reach, float(np.mean(length)))
     pieces = np.maximum(1, np.ceil(length / piece)).astype(int)
@@ -100,7 +102,8 @@ class Boundary:
     def contacts_and_gap(self, least_reach):
         """Pairs of edges that cross or touch, and the smallest distance between two charts (inf with one)."""
         contacts, gap = set(self._folds()) | set(self._crossing_fans()), math.inf
-        reach = max(least_reach, float(np.mean(np.linalg.norm(self.measured_b - self.measured_a, axis=1))) / 2)
+        lengths = np.linalg.norm(self.measured_b - self.measured_a, axis=1)
+        reach = max(least_reach, float(np.sum(lengths)) / max(1, len(lengths)) / 2)
         for i, j, distance in self.near(reach):
             linked = (self.end[i] == self.start[j]) | (self.end[j] == self.start[i])
             for k in np.flatnonzero((distance <= NEAR * self.size) & ~linked):
@@ -108,7 +111,7 @@ class Boundary:
                 if (one, two) not in contacts and self._in_contact(one, two):
                     contacts.add((one, two))
             gap = min(gap, self._between(i, j, distance))
-        while gap > reach and reach < 4 * self.size and self.chart.max() > 0:
+        while gap > reach and reach < 4 * self.size and self.chart.max(initial=0) > 0:
             reach *= 2
             for i, j, distance in self.near(reach, of_two_charts=True):
                 gap = min(gap, self._between(i, j, distance))
@@ -163,7 +166,7 @@ class Boundary:
 
         The other loops wind 0 times around a point of an outer loop and once around a point of a hole: its first vertex that is
         alone at its point, else the middle of its longest edge."""
-        count = int(self.loop.max()) + 1
+        count = int(self.loop.max(initial=-1)) + 1
         area2 = np.bincount(self.loop, self.a[:, 0] * self.b[:, 1] - self.a[:, 1] * self.b[:, 0], count)
         length = np.linalg.norm(self.b - self.a, axis=1)
         pinched = np.bincount(self.start_point)[self.start_point] > 1

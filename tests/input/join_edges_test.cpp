@@ -141,7 +141,7 @@ TEST(AsMeant, MirroredHalvesArePartedAtTheirCommonLine) {
   EXPECT_TRUE(set.defects.empty());
   ASSERT_EQ(set.folds.size(), 1u);
   EXPECT_EQ(set.folds[0].charts, (std::vector<int>{0, 1}));
-  EXPECT_EQ(set.folds[0].edges, 4);
+  EXPECT_EQ(set.folds[0].edges, (std::vector<std::array<int, 2>>(4, {0, 1})));
   EXPECT_EQ(set.seam_edges, 0);
 }
 

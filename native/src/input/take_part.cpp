@@ -61,6 +61,8 @@ Participants take_part(const ChartSet& set, const RefineOptions& options, const 
     std::vector<char> follows(set.charts.size(), 0);
     if (stacks) {
       for (Follower& follower : find_stacks(placed, leaders_first(set, charts, options.locked), kOnEachOther * side)) {
+        // A cut can be followed by the same triangles only.
+        if (options.seams != Seams::None && !follower.same_triangles) continue;
         follows[follower.chart] = 1;
         out.followers.push_back(std::move(follower));
       }
