@@ -55,9 +55,12 @@ void embed(const Refinement& run, int c, std::vector<Chart>& charts, std::vector
 }
 
 /// Charts may overlap themselves here, but every triangle must be positive.
-void embed_broken_polygons(const Refinement& run, std::vector<Chart>& charts, std::vector<int>& embedded) {
+void embed_broken_polygons(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts,
+                           std::vector<int>& embedded) {
   for (const FaceDefect& defect : run.input.set.defects) {
-    if (certify_charts({charts[defect.chart]}).flipped_faces == 0) continue;  // mended with another of its faces
+    const Validity validity = certify_charts({charts[defect.chart]});
+    if (validity.flipped_faces == 0) continue;  // mended with another of its faces
+    if (!bends(freedom, defect.chart)) refuse_kept_shape(charts[defect.chart].number, validity);
     embed(run, defect.chart, charts, embedded);
   }
 }
@@ -211,7 +214,7 @@ Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) 
   Solution out{.intervention = Intervention::Cut};
   std::vector<Chart> charts = run.input.set.charts;
   journal.begin_stage("embed", range.part(0, 0.03));
-  embed_broken_polygons(run, charts, out.re_embedded);
+  embed_broken_polygons(run, freedom, charts, out.re_embedded);
   set_density(charts, wanted_density(run.input.set.charts, options.density), options.density);
   const double enough = options.rectangles.until_input ? energy_of_input(run, charts) : 0;
 
