@@ -11,6 +11,10 @@ namespace {
 // As fractions of the boundary's length: what counts as a border. Of the charts of real atlases panels, planks and strips have
 // 0.2 and more, organic ones less than 0.1, garments and cells up to 0.14.
 constexpr double kLeastRun = 0.15;
+// Less is enough where so much of the outline runs along it or across: letters, combs, stepped panels.
+constexpr double kLeastRunOfSquare = 0.06;
+constexpr double kSquare = 0.75;
+constexpr double kSquareSine = 0.02;
 // How far its vertices may lie beside the line. Along a circle a run is a twentieth.
 constexpr double kStrip = 0.002;
 
@@ -84,6 +88,19 @@ Vec2 median_edge(const std::vector<Vec2>& points, const Run& run) {
   return points[edges[k].second + 1] - points[edges[k].second];
 }
 
+/// Of the outline the part that runs along the direction or across it.
+double square_share(const std::vector<Vec2>& points, const Vec2& direction) {
+  double square = 0, all = 0;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+    const Vec2 edge = points[k + 1] - points[k];
+    const double along = std::abs(edge.dot(direction));
+    const double across = std::abs(direction.x() * edge.y() - direction.y() * edge.x());
+    all += edge.norm();
+    if (std::min(along, across) <= kSquareSine * edge.norm()) square += edge.norm();
+  }
+  return square / all;
+}
+
 }  // namespace
 
 std::optional<Turn> turn_onto_axis(const Chart& chart) {
@@ -93,7 +110,7 @@ std::optional<Turn> turn_onto_axis(const Chart& chart) {
   const std::size_t corner = sharpest_corner(loop);
   for (std::size_t k = 0; k <= loop.size(); ++k) points[k] = loop[(corner + k) % loop.size()];
   Run best;
-  double longest = kLeastRun * length;
+  double longest = kLeastRunOfSquare * length;
   for (std::size_t begin = 0, end = 0; begin + 1 < points.size(); begin = end) {
     end = end_of_run(points, begin, kStrip * length);
     const double reach = (points[end] - points[begin]).norm();
@@ -103,6 +120,7 @@ std::optional<Turn> turn_onto_axis(const Chart& chart) {
   }
   if (best.end == 0) return std::nullopt;
   const Vec2 direction = median_edge(points, best).normalized();
+  if (longest < kLeastRun * length && square_share(points, direction) < kSquare) return std::nullopt;
   // The nearest of the four half-axes comes to lie on u.
   const Vec2 along = std::abs(direction.x()) >= std::abs(direction.y()) ? direction : Vec2(direction.y(), -direction.x());
   const double sign = along.x() > 0 ? 1 : -1;
