@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMostIterations = 80;
 constexpr double kSettled = 1e-3;  // relative change of the energy
-constexpr Damping kDamping{1e-10, 10, 1e4};
+constexpr Damping kDamping{1e-10, 10, 1e24};
 
 /// The unknowns: vertices of the triangles that are not fixed.
 struct Unknowns {
