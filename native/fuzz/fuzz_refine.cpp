@@ -81,7 +81,8 @@ void check_validity(const Atlas& atlas, const RefineOptions& options, const Refi
     const Atlas one = one_of(output, groups, group);
     if (one.face_count() == 0) continue;
     const Validity validity = validate(one);
-    require(validity.valid(), "the result is not valid: " + validity.problem);
+    require(validity.valid(), std::string("the result (") + to_string(result.intervention) + ", group " + std::to_string(group) +
+                                  ") is not valid: " + validity.problem);
   }
 }
 
