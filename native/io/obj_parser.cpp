@@ -148,7 +148,7 @@ void ObjParser::read_position(std::size_t record_begin) {
   scanner_.skip_logical_line();
   record.extra_count = static_cast<int>(obj_.extras.size()) - record.first_extra;
   if (record.extra_count == 1 && obj_.extras.back() != 0) obj_.atlas.positions.back() /= obj_.extras.back();
-  record.whole = {record_begin, scanner_.at()};
+  record.whole = {record_begin, scanner_.record_end()};
   obj_.position_records.push_back(record);
 }
 
@@ -166,7 +166,7 @@ void ObjParser::read_uv(std::size_t record_begin) {
   }
   for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token()) number(token);  // w
   scanner_.skip_logical_line();
-  record.whole = {record_begin, scanner_.at()};
+  record.whole = {record_begin, scanner_.record_end()};
   record.value = uv;
   obj_.uv_records.push_back(record);
 }
@@ -179,7 +179,7 @@ void ObjParser::read_normal(std::size_t record_begin) {
     std::from_chars(text.data(), text.data() + text.size(), value[k]);
   }
   scanner_.skip_logical_line();
-  obj_.normal_records.push_back({{record_begin, scanner_.at()}, value});
+  obj_.normal_records.push_back({{record_begin, scanner_.record_end()}, value});
 }
 
 void ObjParser::read_face(std::size_t record_begin) {
@@ -192,8 +192,8 @@ void ObjParser::read_face(std::size_t record_begin) {
     corners_.push_back(corner(token));
   }
   scanner_.skip_logical_line();
-  record.tail.end = scanner_.at();
-  record.whole = {record_begin, scanner_.at()};
+  record.tail.end = scanner_.record_end();
+  record.whole = {record_begin, scanner_.record_end()};
   if (ObjText::Remark* reason = reason_to_leave_out()) {
     reason->add(record.line);
     for (const Corner& corner : corners_) add_element(corner);

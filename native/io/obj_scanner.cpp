@@ -16,6 +16,13 @@ ObjScanner::ObjScanner(std::string_view text) : text_(text) {
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
 }
 
+std::size_t ObjScanner::record_end() const {
+  if (at_ < text_.size()) return at_;
+  std::size_t end = at_;
+  while (end > 0 && is_blank(text_[end - 1])) --end;
+  return end > 0 && text_[end - 1] == '\\' ? end - 1 : at_;
+}
+
 void ObjScanner::skip_indent() {
   while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
 }

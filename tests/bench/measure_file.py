@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -143,9 +144,15 @@ class Run:
         return self.exit_code == 0
 
 
-def run_limited(command, seconds):
+def run_limited(command, seconds, cpu_seconds=resource.RLIM_INFINITY):
     """(exit code, stderr), None where there is no end in time; whatever it started ends with it."""
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True)
+
+    def limit_processor_time():
+        resource.setrlimit(resource.RLIMIT_CPU, (cpu_seconds, cpu_seconds))
+
+    process = subprocess.Popen(
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True, preexec_fn=limit_processor_time
+    )
     try:
         message = process.communicate(timeout=seconds)[1].decode(errors="replace").strip()
     except BaseException as why:
@@ -157,13 +164,13 @@ def run_limited(command, seconds):
     return process.returncode, message
 
 
-def refine(program, meshes, output, goal, threads=1, limit_s=PROGRAM_LIMIT_S):
+def refine(program, meshes, output, goal, threads=1, limit_s=PROGRAM_LIMIT_S, cpu_limit_s=resource.RLIM_INFINITY):
     """Runs the program on one file or on a collection; its report lies beside `output`."""
     meshes = [meshes] if isinstance(meshes, str | Path) else meshes
     report, figures = output.with_suffix(".json"), output.with_suffix(".figures")
     launcher = [sys.executable, "-S", "-E", Path(__file__).with_name("run_measured.py"), figures]
     command = [program, *meshes, "-o", output, *goal.command_line(), "--threads", str(threads), "--report", report]
-    ended = run_limited([*launcher, *command], limit_s)
+    ended = run_limited([*launcher, *command], limit_s, cpu_limit_s)
     if ended is None:
         return Run(-1, f"no end after {limit_s} s")
     code, message = ended

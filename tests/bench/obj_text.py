@@ -124,11 +124,15 @@ class Reader:
         return True
 
     def elements(self):
-        """Of lines and of faces that are not in the atlas the UVs instead of their numbers, as text: what is no number too."""
+        """Of lines and of faces that are not in the atlas the UVs instead of their numbers, as text: what is no number too.
+
+        Records that faces of the atlas have as well move with those."""
+        shared = set(self.corner_uv)
         for record in self.others:
             if isinstance(record, tuple) and len(record) == 3:
                 keyword, vertices, uvs = record
-                yield keyword, vertices, [repr(self.uvs[uv]) if 0 <= uv < len(self.uvs) else "" for uv in uvs]
+                own = [0 <= uv < len(self.uvs) and uv not in shared for uv in uvs]
+                yield keyword, vertices, [repr(self.uvs[uv]) if kept else "" for uv, kept in zip(uvs, own, strict=True)]
             else:
                 yield record
 

@@ -3,6 +3,7 @@
 import concurrent.futures
 import json
 import math
+import signal
 import subprocess
 import tempfile
 from collections import Counter
@@ -12,7 +13,9 @@ from pathlib import Path
 import check_atlas
 import measure_file
 
-LIMIT_S = 60
+LIMIT_S = 60  # processor time of one thread: what an idle machine needs
+PATIENCE = 10  # times as long by the clock
+KILLED = (128 + signal.SIGXCPU, 128 + signal.SIGKILL)
 BLENDER_LIMIT_S = 300
 FAILURES = ("crash", "hang", "invalid", "no UVs")
 REFUSALS = {3: "bad input", 4: "bound not reached"}
@@ -53,7 +56,7 @@ def header():
 
 def ended(run):
     """The ending of a run without a result."""
-    if run.exit_code == -1:
+    if run.exit_code == -1 or run.exit_code in KILLED:
         return {"how": "hang", "why": f"no end after {LIMIT_S} s"}
     if run.exit_code in REFUSALS:
         return {"how": "refused", "why": run.message}
@@ -79,7 +82,7 @@ def run_file(program, folder, mesh, name, goal):
     with tempfile.TemporaryDirectory(prefix="atlas-refine-real-") as scratch:
         output = Path(scratch) / "out.obj"
         try:
-            run = measure_file.refine(program, mesh, output, goal, limit_s=LIMIT_S)
+            run = measure_file.refine(program, mesh, output, goal, limit_s=PATIENCE * LIMIT_S, cpu_limit_s=LIMIT_S)
         except OSError as error:
             return replace(ending, why=f"not started: {error}")
         if not run.done:

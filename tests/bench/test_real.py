@@ -9,7 +9,7 @@ from measure_file import Goal
 from test_check_atlas import GOOD, problems
 
 POINT = "v 9 0 0\nv 9 1 0\nv 9 0 1\nvt 5 5\nf -3/-1 -2/-1 -1/-1\n"
-LEFT_OUT = "f 1 2 3\nf 1/1 2/2\nf 1/1 2/2 3/3 1/1 4/4\nvt nan 0\nf 1/-1 2/2 3/3\n"
+LEFT_OUT = "vt 7 7\nf 1 2 3\nf 1/-1 2/2\nf 1/1 2/2 3/3 1/1 4/4\nvt nan 0\nf 1/-1 2/2 3/3\n"
 
 
 def program(tmp_path, script):
@@ -26,11 +26,13 @@ def program(tmp_path, script):
         ("echo 'atlas-refine: x: the bound' >&2; exit 4", "refused", "the bound"),
         ("echo 'atlas-refine: internal error: x' >&2; exit 1", "crash", "internal error"),
         ("kill -SEGV $$", "crash", "no message"),
+        ("while :; do :; done", "hang", "no end after"),
         ("sleep 30", "hang", "no end after"),
     ],
 )
 def test_endings_without_a_result(tmp_path, monkeypatch, script, how, why):
-    monkeypatch.setattr(real, "LIMIT_S", 2)
+    monkeypatch.setattr(real, "LIMIT_S", 1)
+    monkeypatch.setattr(real, "PATIENCE", 3)
     mesh = tmp_path / "in.obj"
     mesh.write_text(GOOD)
     ending = real.run_file(program(tmp_path, script), "folder", mesh, "in", Goal(0.8))
@@ -59,7 +61,7 @@ def test_charts_without_area_are_no_defect(tmp_path):
 
 def test_faces_that_are_left_out_are_no_defect_but_must_stay(tmp_path):
     assert problems(tmp_path, GOOD + LEFT_OUT) == ""
-    assert problems(tmp_path, GOOD + LEFT_OUT.replace("f 1/1 2/2\n", "f 1/1 2/3\n"), before=GOOD + LEFT_OUT) != ""
+    assert problems(tmp_path, GOOD + LEFT_OUT.replace("vt 7 7", "vt 7 8"), before=GOOD + LEFT_OUT) != ""
     assert problems(tmp_path, GOOD + LEFT_OUT.replace("f 1 2 3\n", ""), before=GOOD + LEFT_OUT) != ""
 
 
