@@ -90,7 +90,7 @@ Joining joining_after(const Participants& participants, const std::vector<Done>&
 RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, const RefineOptions& options, Monitor& monitor,
                           Journal& journal) {
   journal.begin_stage("input", kInput);
-  const InputAtlas whole = read_atlas(atlas, options.box_aspect);
+  const InputAtlas whole = read_atlas(atlas, options.box_aspect, options.groups);
   Participants participants = take_part(whole.set, options, has_uvs);
   journal.show("input", charts_as_placed(whole.set));
   std::vector<Done> done =

@@ -84,6 +84,17 @@ void count_seam(const Atlas& atlas, EdgeUses uses, EdgeJoins& joins) {
   joins.seam_length += (atlas.positions[uses[0].low_vertex] - atlas.positions[uses[0].high_vertex]).norm();
 }
 
+/// Calls body(range) for the uses of one edge by faces of one group, group by group.
+template <class Body>
+void for_each_group(EdgeUses uses, const std::vector<int>& corner_faces, const std::vector<int>& groups, Body body) {
+  if (groups.empty()) return body(uses);
+  const auto group = [&](const EdgeUse& use) { return groups[corner_faces[use.corner]]; };
+  std::vector<EdgeUse> sorted(uses.begin(), uses.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const EdgeUse& a, const EdgeUse& b) { return group(a) < group(b); });
+  for_each_range(
+      sorted, [&](const EdgeUse& a, const EdgeUse& b) { return group(a) == group(b); }, body);
+}
+
 }  // namespace
 
 void orient_faces(const Atlas& atlas, EdgeJoins& joins) {
@@ -91,7 +102,7 @@ void orient_faces(const Atlas& atlas, EdgeJoins& joins) {
   Winding(atlas, joins).run();
 }
 
-EdgeJoins join_edges(const Atlas& atlas, Joining joining) {
+EdgeJoins join_edges(const Atlas& atlas, Joining joining, const std::vector<int>& groups) {
   EdgeJoins joins;
   joins.corner_faces = faces_of_corners(atlas);
   joins.partners.assign(atlas.corner_count(), -1);
@@ -103,7 +114,8 @@ EdgeJoins join_edges(const Atlas& atlas, Joining joining) {
   joins.places = places(atlas.positions);
   const std::vector<EdgeUse> uses = edge_uses(atlas, joins.places);
   UsePairs pairs(atlas, joining, joins);
-  for_each_edge(uses, [&](EdgeUses edge) { pairs.join(edge); });
+  for_each_edge(uses,
+                [&](EdgeUses edge) { for_each_group(edge, joins.corner_faces, groups, [&](EdgeUses own) { pairs.join(own); }); });
   pairs.join_within_charts();
   orient_faces(atlas, joins);
   for_each_edge(uses, [&](EdgeUses edge) { count_seam(atlas, edge, joins); });

@@ -167,9 +167,9 @@ std::vector<std::vector<int>> boundary_loops(const Chart& chart) {
 
 }  // namespace
 
-ChartSet split_charts(const Atlas& atlas, Joining joining) {
+ChartSet split_charts(const Atlas& atlas, Joining joining, const std::vector<int>& groups) {
   check_atlas(atlas);
-  EdgeJoins joins = join_edges(atlas, joining);
+  EdgeJoins joins = join_edges(atlas, joining, groups);
   std::vector<std::array<int, 2>> parted;
   if (joining == Joining::AsMeant) parted = part_folds(atlas, joins);
   const FaceCharts face_charts = number_charts(atlas, joins);

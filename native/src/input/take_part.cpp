@@ -31,6 +31,15 @@ std::vector<int> leaders_first(const ChartSet& set, std::vector<int> charts, con
   return charts;
 }
 
+/// The fold that each chart was part of, -1 where none.
+std::vector<int> folds_of_charts(const ChartSet& set) {
+  std::vector<int> out(set.charts.size(), -1);
+  for (std::size_t k = 0; k < set.folds.size(); ++k) {
+    for (const int chart : set.folds[k].charts) out[chart] = static_cast<int>(k);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool is_collapsed(const Chart& chart, double box_side) {
@@ -55,14 +64,16 @@ Participants take_part(const ChartSet& set, const RefineOptions& options, const 
       groups[group_of(chart, options.groups)].push_back(k);
     }
   }
+  const std::vector<int> fold = folds_of_charts(set);
   const bool stacks = options.stacks == Stacks::Keep && set.charts.size() > 1;
   const std::vector<Chart> placed = stacks ? charts_as_placed(set) : std::vector<Chart>();
   for (auto& [group, charts] : groups) {
     std::vector<char> follows(set.charts.size(), 0);
     if (stacks) {
       for (Follower& follower : find_stacks(placed, leaders_first(set, charts, options.locked), kOnEachOther * side)) {
-        // A cut can be followed by the same triangles only.
+        // A cut can be followed by the same triangles only. What was one chart, folded, was not put on itself on purpose.
         if (options.seams != Seams::None && !follower.same_triangles) continue;
+        if (fold[follower.chart] >= 0 && fold[follower.chart] == fold[follower.leader]) continue;
         follows[follower.chart] = 1;
         out.followers.push_back(std::move(follower));
       }

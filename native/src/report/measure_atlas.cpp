@@ -33,8 +33,8 @@ Measures measure(const Atlas& atlas, double box_aspect) {
   return measures;
 }
 
-InputAtlas read_atlas(const Atlas& atlas, double box_aspect) {
-  InputAtlas input{atlas, split_charts(atlas)};
+InputAtlas read_atlas(const Atlas& atlas, double box_aspect, const std::vector<int>& groups) {
+  InputAtlas input{atlas, split_charts(atlas, Joining::AsMeant, groups)};
   stretch_to_texture(input.set.charts, box_aspect);
   return input;
 }

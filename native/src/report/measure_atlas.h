@@ -19,7 +19,7 @@ struct InputAtlas {
 };
 
 /// All charts, not measured. Throws RefineError(BadInput) as split_charts() does.
-InputAtlas read_atlas(const Atlas& atlas, double box_aspect);
+InputAtlas read_atlas(const Atlas& atlas, double box_aspect, const std::vector<int>& groups = {});
 
 /// These charts of it as an atlas of their own, measured.
 InputAtlas part_of(const InputAtlas& whole, const std::vector<int>& charts, double box_aspect);
