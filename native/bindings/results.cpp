@@ -113,6 +113,10 @@ void bind_measures(py::module_& module) {
       .field("stretch_max", &Measures::stretch_max)
       .field("gap_between", &Measures::gap_between)
       .field("gap_within", &Measures::gap_within);
+  ValueClass<Triangulations>(module, "Triangulations", "Faces that are not positive however they are divided.")
+      .field("fan_flipped", &Triangulations::fan_flipped)
+      .field("ears_flipped", &Triangulations::ears_flipped)
+      .field("not_convex", &Triangulations::not_convex);
   ValueClass<Validity>(module, "Validity", "Whether an atlas is valid, and the first problem if it is not.")
       .property("valid", &Validity::valid)
       .field("problem", &Validity::problem)
@@ -120,7 +124,8 @@ void bind_measures(py::module_& module) {
       .field("face", &Validity::face)
       .field("flipped_faces", &Validity::flipped_faces)
       .field("mirrored_charts", &Validity::mirrored_charts)
-      .field("crossings", &Validity::crossings);
+      .field("crossings", &Validity::crossings)
+      .field("triangulations", &Validity::triangulations);
 }
 
 void bind_cut_mesh(py::module_& module) {
@@ -211,6 +216,12 @@ void bind_refine_result(py::module_& module) {
       .field("bound_met", &RefineResult::bound_met)
       .field("before", &RefineResult::before)
       .field("after", &RefineResult::after)
+      .field("added_seams", &RefineResult::added_seams)
+      .property("new_seams",
+                [](const RefineResult& r) {
+                  return table<std::int32_t>(r.new_seams.size(), 2, [&](std::size_t i, int k) { return r.new_seams[i][k]; });
+                })
+      .field("triangulations", &RefineResult::triangulations)
       .field("gap", &RefineResult::gap)
       .field("price", &RefineResult::price)
       .field("iterations", &RefineResult::iterations)

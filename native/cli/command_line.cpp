@@ -179,6 +179,10 @@ void add_kept(CLI::App& app, CommandLine& line) {
   add(app, "--locked", "FILE",
       "The same: charts with a face of 1 stay where they are in the texture, others go around them [all 0]",
       [&](const Value& v) { line.locked = v.text; });
+  add(app, "--no-seam", "FILE", "Edges that no cut runs along: pairs of vertices of IN, counted from 0 [none]",
+      [&](const Value& v) { line.no_seam = v.text; });
+  add(app, "--prefer-seam", "FILE", "Edges that cuts along edges like to follow: pairs of vertices, counted from 0 [none]",
+      [&](const Value& v) { line.prefer_seam = v.text; });
   add(app, "--rotate", "any|90|none", "How charts may be turned where they are only moved [any]", [&](const Value& v) {
     if (v.text != "any" && v.text != "90" && v.text != "none") v.refuse("must be 'any', '90' or 'none'");
     options.rotate = v.text == "any" ? Rotate::Any : v.text == "90" ? Rotate::QuarterTurns : Rotate::None;

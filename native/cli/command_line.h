@@ -21,6 +21,8 @@ struct CommandLine {
   std::string group_by = "none";  ///< none, material, object or tile
   std::optional<std::filesystem::path> keep_shape;
   std::optional<std::filesystem::path> locked;
+  std::optional<std::filesystem::path> no_seam;
+  std::optional<std::filesystem::path> prefer_seam;
   RefineOptions options;
   bool json = false;  ///< measure: JSON instead of a table
   std::string text;   ///< PrintText: the help or the version

@@ -14,10 +14,10 @@
 #include "atlas_refine/refine.h"
 #include "collection.h"
 #include "command_line.h"
-#include "importance_file.h"
 #include "interrupt.h"
 #include "io/input_file.h"
 #include "io/mesh_file.h"
+#include "number_files.h"
 #include "output_file.h"
 #include "progress_bar.h"
 #include "report.h"
@@ -161,6 +161,9 @@ int run_refine(CommandLine line) {
     auto start = std::chrono::steady_clock::now();
     for (const auto& input : line.inputs) files.add(input);
     if (line.keep_shape) line.options.keep_shape = files.of_atlas(read_flags(*line.keep_shape, files.face_count()));
+    const int vertices = static_cast<int>(files.atlas().positions.size());
+    if (line.no_seam) line.options.no_seam = read_edges(*line.no_seam, vertices);
+    if (line.prefer_seam) line.options.prefer_seam = read_edges(*line.prefer_seam, vertices);
     if (line.locked) line.options.locked = files.of_atlas(read_flags(*line.locked, files.face_count()));
     if (line.importance) line.options.importance = files.of_atlas(read_importance(*line.importance, files.face_count()));
     set_groups(line, files, line.options);

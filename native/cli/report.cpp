@@ -37,6 +37,10 @@ Json to_json(const Measures& m) {
           {"gap_within", number(m.gap_within)}};
 }
 
+Json to_json(const Triangulations& t) {
+  return {{"fan_flipped", t.fan_flipped}, {"ears_flipped", t.ears_flipped}, {"not_convex", t.not_convex}};
+}
+
 Json to_json(const Gap& gap) {
   return {{"value", number(gap.value)}, {"unit", gap.unit == Gap::Unit::BoxDiagonal ? "box_diagonal" : "long_side"}};
 }
@@ -80,6 +84,8 @@ Json to_json(const CommandLine& line) {
           {"importance", line.importance ? Json(line.importance->string()) : Json(nullptr)},
           {"keep_shape", line.keep_shape ? Json(line.keep_shape->string()) : Json(nullptr)},
           {"locked", line.locked ? Json(line.locked->string()) : Json(nullptr)},
+          {"no_seam", line.no_seam ? Json(line.no_seam->string()) : Json(nullptr)},
+          {"prefer_seam", line.prefer_seam ? Json(line.prefer_seam->string()) : Json(nullptr)},
           {"rotate", o.rotate == Rotate::Any            ? "any"
                      : o.rotate == Rotate::QuarterTurns ? "90"
                                                         : "none"},
@@ -150,7 +156,8 @@ Json to_json(const Validity& validity) {
           {"face", validity.face},
           {"flipped_faces", validity.flipped_faces},
           {"mirrored_charts", validity.mirrored_charts},
-          {"crossings", validity.crossings}};
+          {"crossings", validity.crossings},
+          {"triangulations", to_json(validity.triangulations)}};
 }
 
 template <class... Args>
@@ -215,6 +222,8 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
                {"after", to_json(result.after)},
                {"added_seam_edges", result.added_seams},
                {"added_seam_length", number(seam_growth(result))},
+               {"new_seams", result.new_seams},
+               {"triangulations", to_json(result.triangulations)},
                {"gap", to_json(result.gap)},
                {"price", number(result.price)},
                {"iterations", result.iterations},

@@ -72,6 +72,17 @@ class Measures:
     def gap_within(self) -> float: ...  # within one chart, far apart along its border / box diagonal
     def as_dict(self) -> dict[str, Any]: ...
 
+class Triangulations:
+    """Faces of more than three corners that some division turns over, by how they are divided."""
+
+    @property
+    def fan_flipped(self) -> int: ...  # as a fan from the first corner
+    @property
+    def ears_flipped(self) -> int: ...  # by ear clipping: the outline crosses itself, or is turned over
+    @property
+    def not_convex(self) -> int: ...  # by some division
+    def as_dict(self) -> dict[str, Any]: ...
+
 class Validity:
     @property
     def valid(self) -> bool: ...
@@ -87,6 +98,8 @@ class Validity:
     def mirrored_charts(self) -> int: ...
     @property
     def crossings(self) -> int: ...  # pairs of boundary edges that cross or touch
+    @property
+    def triangulations(self) -> Triangulations: ...
     def as_dict(self) -> dict[str, Any]: ...
 
 class ChartReport:
@@ -221,6 +234,12 @@ class RefineResult:
     def before(self) -> Measures: ...
     @property
     def after(self) -> Measures: ...
+    @property
+    def added_seams(self) -> int: ...  # edges that were whole in the UV map and are torn
+    @property
+    def new_seams(self) -> NDArray[np.int32]: ...  # (S, 2): vertex pairs that were cut where no face was divided
+    @property
+    def triangulations(self) -> Triangulations: ...
     @property
     def gap(self) -> Gap: ...  # guaranteed in the result
     @property

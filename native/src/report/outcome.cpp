@@ -5,14 +5,20 @@
 #include <map>
 
 #include "report/certify.h"
+#include "report/locked.h"
 
 namespace atlas_refine {
 namespace {
 
-std::vector<ChartReport> chart_reports(const InputAtlas& whole, const Participants& participants, const std::vector<Done>& done) {
+std::vector<ChartReport> chart_reports(const InputAtlas& whole, const Participants& participants, const RefineOptions& options,
+                                       const std::vector<Done>& done) {
   std::vector<ChartReport> out = reports_of_input(whole);
   for (const Done& d : done) {
     for (std::size_t k = 0; k < d.part.charts.size(); ++k) out[d.part.charts[k]] = d.outcome.charts[k];
+  }
+  const Freedoms freedom = freedom_of(whole.set, options);
+  for (std::size_t k = 0; k < freedom.size(); ++k) {
+    if (freedom[k] != Freedom::Bends) out[k].fate = freedom[k] == Freedom::Fixed ? Fate::Locked : Fate::Kept;
   }
   for (const LeftChart& left : participants.left) {
     out[left.chart].fate = Fate::Left;
@@ -71,7 +77,7 @@ void summarise(const InputAtlas& whole, const Participants& participants, const 
   const std::vector<double> areas = areas_of(whole, done);
   result.before = combined(measures_of(done, &Outcome::before), areas);
   result.after = combined(measures_of(done, &Outcome::after), areas);
-  result.charts = chart_reports(whole, participants, done);
+  result.charts = chart_reports(whole, participants, options, done);
   result.bound_met = true;
   for (std::size_t k = 0; k < done.size(); ++k) {
     const auto& [part, outcome] = done[k];
