@@ -1,6 +1,7 @@
 // A Wavefront OBJ file whose UVs can be replaced while every other byte of it stays as it was.
 #include "io/obj_file.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "io/obj_cut_writer.h"
@@ -11,11 +12,21 @@ namespace atlas_refine::io {
 
 namespace {
 
+// A corner that is named several times in a row may have come from several records, each of which has its value.
+int record_of(const ObjText::UvReference& reference, const UvRecords& records) {
+  const int first = records.first[reference.record], last = records.first[reference.record + 1];
+  if (reference.corner < 0) return first;
+  const int known = records.of_corner[reference.corner];
+  if (known >= first && known < last) return known;
+  const auto begin = records.values.begin();
+  return static_cast<int>(std::find(begin + first, begin + last, records.values[known]) - begin);
+}
+
 // A relative index stays relative: some readers do not allow both kinds in one corner.
 void write_reference(const ObjText& obj, const ObjText::UvReference& reference, const UvRecords& records, std::string& out) {
   int value = 0;
   std::from_chars(obj.text.data() + reference.text.begin, obj.text.data() + reference.text.end, value);
-  const int record = reference.corner < 0 ? records.first[reference.record] : records.of_corner[reference.corner];
+  const int record = record_of(reference, records);
   if (value > 0) {
     value = record + 1;
   } else {

@@ -3,6 +3,7 @@
 import concurrent.futures
 import json
 import math
+import re
 import signal
 import subprocess
 import tempfile
@@ -119,6 +120,11 @@ def end_of(program, folder, mesh, goal, cache):
     return run_file(program, folder, source, mesh.stem, goal)
 
 
+def kind_of(reason):
+    """Without the numbers and names of what it is about."""
+    return re.sub(r"[0-9.]+", "N", re.sub(r"^exit \d+: (line \d+: )?| \(.*", "", reason))[:100]
+
+
 def summary(endings):
     lines = []
     for folder in [*dict.fromkeys(ending.folder for ending in endings), ""]:
@@ -128,7 +134,7 @@ def summary(endings):
         each = ", ".join(f"{count} {how}" for how, count in sorted(counts.items()))
         share = 100 * (len(own) - refused - failures) / len(own)
         lines.append(f"{folder or 'all':28} {len(own):4} files: {share:5.1f} % not refused, {failures} failures ({each})")
-    reasons = Counter(ending.why.split(":")[0][:60] for ending in endings if ending.how == "refused")
+    reasons = Counter(kind_of(ending.why) for ending in endings if ending.how == "refused")
     return lines + [f"refused {count:3} x {reason}" for reason, count in reasons.most_common()]
 
 

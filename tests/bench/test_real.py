@@ -82,3 +82,8 @@ def test_homogeneous_positions(tmp_path):
         (tmp_path / f"{name}.obj").write_text(text)
     plain, same = (check_atlas.check(tmp_path / f"{name}.obj", tmp_path / f"{name}.obj") for name in ("plain", "scaled"))
     assert plain["e_d"] == same["e_d"]
+
+
+def test_reasons_are_told_by_kind():
+    one, other = "exit 3: line 257: face 0 of chart 0 is flipped (and 2 more)", "exit 3: line 9: face 12 of chart 3 is flipped"
+    assert real.kind_of(one) == real.kind_of(other) == "face N of chart N is flipped"

@@ -191,5 +191,14 @@ TEST(ObjFile, HomogeneousPositionsAreDividedByW) {
   EXPECT_EQ(file.atlas().positions, (std::vector<Vec3>{{1, 2, 3}, {1, 0, 0}, {0, 1, 0}, {1, 2, 3}}));
 }
 
+TEST(ObjFile, ACornerNamedTwiceMayComeFromARecordThatFollows) {
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+      "f -3/-3 -2/-2 -1/-1 3/4\nvt 5 5\nf 1/1 2/2 3/3\n";
+  const ObjFile file = ObjFile::parse(text);
+  const std::vector<Vec2> uvs = {{0, 0}, {0.5, 0}, {0.5, 0.5}, {0.1, 0}, {0.7, 0}, {0.7, 0.7}};
+  EXPECT_EQ(ObjFile::parse(file.with_uvs(uvs)).atlas().corner_uvs, uvs);
+}
+
 }  // namespace
 }  // namespace atlas_refine::io

@@ -20,8 +20,8 @@ constexpr int kManyCharts = 200;
 /// Beyond this many charts even compaction does.
 constexpr int kTooManyToCompact = 1000;
 constexpr int kFinalists = 4;
-/// Work of all greedy starts in words looked at: four times what atlases of many charts need, a second of tall strips.
-constexpr std::int64_t kGreedyWork = 500'000'000;
+/// Work of all greedy starts in words looked at: more than atlases of any number of charts need, half a second of tall strips.
+constexpr std::int64_t kGreedyWork = 200'000'000;
 /// Cells are so large that no chart is longer than this many sides of the grid: a needle's length is no measure of the area.
 constexpr double kLongestChart = 16;
 
@@ -156,13 +156,14 @@ class Search {
   /// The first start tells what the others cost.
   void start_greedily(int starts) {
     watch_.begin_part(0.05, 0.3);
+    watch_.begin_task(0, starts);
     layouts_ = {greedy_layout(0)};
     const std::int64_t affordable = kGreedyWork / std::max<std::int64_t>(1, layouts_[0].work);
     starts = static_cast<int>(std::clamp<std::int64_t>(affordable, std::min(kFinalists, starts), starts));
     layouts_.resize(starts);
     parallel_ranges(starts - 1, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
-        watch_.begin_task(k - begin, end - begin);
+        watch_.begin_task(k - begin + 1, end - begin + 1);
         layouts_[k + 1] = greedy_layout(k + 1);
       }
     });
