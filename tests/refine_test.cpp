@@ -157,19 +157,17 @@ TEST(Refine, ChartsThatTouchOrLieOnEachOtherAreSeparated) {
   refine_soundly(shapes::disk_in_ring(), {.pe_bound = 0.85});
 }
 
-TEST(Refine, RefusesFlipsByChartAndFaceAndLeavesFacesOnAPoint) {
-  Atlas flipped =
+TEST(Refine, MendsFlipsNamesTheirFacesAndLeavesFacesOnAPoint) {
+  const Atlas flipped =
       shapes::combine({shapes::mesh(shapes::star(), 0.1), shapes::with_flipped_face(shapes::mesh(shapes::u_shape(), 0.1))});
-  flipped.name = "Suzanne";
-  const RefineError error = testing::refusal(flipped);
-  EXPECT_EQ(error.code(), ErrorCode::BadInput);
-  EXPECT_EQ(error.chart(), 1);
-  const int first_face_of_second = shapes::mesh(shapes::star(), 0.1).face_count();
-  EXPECT_GE(error.face(), first_face_of_second);
-  const std::string message = error.what();
-  EXPECT_NE(message.find("Suzanne"), std::string::npos) << message;
-  EXPECT_NE(message.find(std::to_string(error.face())), std::string::npos) << message;
-  EXPECT_EQ(message.find('\n'), std::string::npos);
+  const RefineResult result = refine_soundly(flipped, {});
+  ASSERT_EQ(result.repairs.size(), 1u);
+  const Repair& repair = result.repairs[0];
+  EXPECT_EQ(repair.charts, std::vector<int>{1});
+  ASSERT_FALSE(repair.faces.empty());
+  EXPECT_GE(repair.faces.front(), shapes::mesh(shapes::star(), 0.1).face_count());
+  EXPECT_LE(repair.distortion_to_input, 1.02);
+  EXPECT_NE(describe(repair).find(std::to_string(repair.faces.front())), std::string::npos) << describe(repair);
 
   Atlas flat = shapes::quad_grid(3, 3);
   for (int c = 4 * 4; c < 4 * 5; ++c) flat.corner_uvs[c] = {0.5, 0.5};
