@@ -125,7 +125,10 @@ def draw_options(layout, holder):
     layout.prop(holder, "pe_bound")
     layout.prop(holder, "seams")
     if holder.seams == "RECTANGLES":
+        layout.prop(holder, "cut")
         layout.prop(holder, "sigma")
+    layout.prop(holder, "open_closed")
+    layout.prop(holder, "stacks")
     layout.prop(holder, "density")
     layout.prop(holder, "aspect")
     layout.prop(holder, "gap")

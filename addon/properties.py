@@ -5,7 +5,21 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .core.options import Options
 
-OPTION_NAMES = ("pe_bound", "seams", "sigma", "aspect", "density", "gap", "gap_px", "texture_size", "seed", "best_effort")
+OPTION_NAMES = (
+    "pe_bound",
+    "seams",
+    "cut",
+    "open_closed",
+    "stacks",
+    "sigma",
+    "aspect",
+    "density",
+    "gap",
+    "gap_px",
+    "texture_size",
+    "seed",
+    "best_effort",
+)
 
 
 def pe_bound_property(**more):
@@ -27,7 +41,7 @@ SEAMS = [
     (
         "RECTANGLES",
         "Rectangles (Liu et al. 2019)",
-        "Charts become axis-aligned and are cut into rectangles; adds seams, which divide faces where they cross them",
+        "Charts are cut towards rectangles, which pack; adds seams",
         1,
     ),
 ]
@@ -59,6 +73,29 @@ def sigma_property(**more):
 def other_properties():
     """The options that have no preference."""
     return {
+        "cut": EnumProperty(
+            name="Cut",
+            description="Where new seams run",
+            items=[
+                ("EDGES", "Along Edges", "Only edges of the mesh become seams: its faces stay as they are"),
+                ("SPLIT", "Across Faces", "Seams are straight and divide the faces that they cross"),
+            ],
+            default=Options.cut,
+        ),
+        "open_closed": BoolProperty(
+            name="Open Closed Charts",
+            description="A chart without a border cannot be flat: open it along edges, which become seams",
+            default=Options.open_closed,
+        ),
+        "stacks": EnumProperty(
+            name="Stacks",
+            description="Charts of one shape that lie on each other, mirrored ones too",
+            items=[
+                ("KEEP", "Keep", "They stay on each other and share their part of the texture"),
+                ("SEPARATE", "Separate", "Each gets a place of its own"),
+            ],
+            default=Options.stacks,
+        ),
         "aspect": EnumProperty(
             name="Aspect",
             description="Shape of the UV box",

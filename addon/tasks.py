@@ -8,7 +8,7 @@ import bpy
 from .bridge import cuts
 from .bridge import mesh as bridge
 from .core.atlas import stored_uvs
-from .core.cuts import plan_cut
+from .core.cuts import plan_cut, seam_edges
 from .engine import AtlasRefineError, start
 
 #: What a task may fail with for reasons that lie in the object or the options.
@@ -25,14 +25,17 @@ class Task:
 
     def __init__(self, obj, uv_map, options, beside_window=False):
         bridge.check_writable(obj)
-        if options.seams != "NONE":
+        if options.seams != "NONE" and options.cut == "SPLIT":
             cuts.check_divisible(obj)
         self.object_name = obj.name
         self.uv_map = bridge.find_uv_map(obj.data, uv_map)
         self.uneven_scale = bridge.has_uneven_scale(obj)
         self.atlas = bridge.read_atlas(obj, self.uv_map)
         threads = max(1, (os.cpu_count() or 1) - 1) if beside_window else 0  # one core is left to the window
-        self.job = start(*self.atlas.as_tuple(), name=obj.name, threads=threads, **options.engine_arguments())
+        triangles = bridge.read_triangles(obj)
+        self.job = start(
+            *self.atlas.as_tuple(), name=obj.name, threads=threads, triangles=triangles, **options.engine_arguments()
+        )
 
     def finish(self):
         """Waits for the engine, writes the result and returns it; raises one of FAILURES with the mesh as it was."""
@@ -53,6 +56,7 @@ class Task:
             cuts.write_cut(obj, self.uv_map, plan_cut(self.atlas, result.cut, stored_uvs(result.corner_uvs)))
         elif result.intervention != "unchanged":
             bridge.write_uvs(obj, self.uv_map, stored_uvs(result.corner_uvs))
+            bridge.mark_seams(obj, seam_edges(self.atlas, result.new_seams))
 
     def warnings(self, result):
         if self.uneven_scale:

@@ -28,6 +28,26 @@ class Operator(unittest.TestCase):
             self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=pe_bound), {"FINISHED"})
             self.assertGreaterEqual(packing_efficiency(obj.data, layer), pe_bound)
 
+    def test_cuts_along_edges_mark_seams_and_leave_the_mesh_as_it_is(self):
+        obj = add_mesh()
+        before = snapshot(obj)
+        self.assertEqual(bpy.ops.uv.atlas_refine(seams="RECTANGLES", pe_bound=0.8), {"FINISHED"})
+        self.assertGreaterEqual(packing_efficiency(obj.data, obj.data.uv_layers.active), 0.8)
+        seams = [edge.key for edge in obj.data.edges if edge.use_seam]
+        self.assertGreater(len(seams), 0)
+        for edge in obj.data.edges:
+            edge.use_seam = False
+        self.assertEqual([name for name in changes(before, snapshot(obj)) if "uv" not in name.lower()], [])
+
+    def test_a_closed_chart_is_opened_along_a_marked_seam(self):
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=12, ring_count=8)
+        obj = bpy.context.object
+        layer = obj.data.uv_layers.active or obj.data.uv_layers.new()
+        uvs = [obj.data.vertices[loop.vertex_index].co.xy for loop in obj.data.loops]
+        set_uvs(layer, np.array(uvs, dtype=np.float32))
+        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7), {"FINISHED"})
+        self.assertGreaterEqual(packing_efficiency(obj.data, obj.data.uv_layers.active), 0.7)
+
     def test_the_default_bound_is_080(self):
         obj = add_mesh()
         bpy.ops.uv.atlas_refine()

@@ -115,7 +115,7 @@ class Rectangles(unittest.TestCase):
         mesh = obj.data
         faces, old_positions, old_surface = len(mesh.polygons), positions(mesh), surface(mesh)
         bpy.ops.object.mode_set(mode=mode)
-        done = bpy.ops.uv.atlas_refine(seams="RECTANGLES", sigma=0.004, pe_bound=0.8, density="EQUAL")
+        done = bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut="SPLIT", sigma=0.004, pe_bound=0.8, density="EQUAL")
         self.assertEqual((done, obj.mode), ({"FINISHED"}, mode))
         bpy.ops.object.mode_set(mode="OBJECT")
         mesh = obj.data
@@ -144,7 +144,7 @@ class Rectangles(unittest.TestCase):
         quads = sum(len(polygon.vertices) == 4 for polygon in obj.data.polygons)
         index = obj.data.attributes.new("index", "INT", "FACE")
         index.data.foreach_set("value", np.arange(len(obj.data.polygons)))
-        bpy.ops.uv.atlas_refine(seams="RECTANGLES", density="EQUAL")
+        bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut="SPLIT", density="EQUAL")
         self.assertEqual(obj.data.uv_layers.active.name, uvs)
         source = np.empty(len(obj.data.polygons), dtype=np.int32)
         obj.data.attributes["index"].data.foreach_get("value", source)
@@ -155,9 +155,9 @@ class Rectangles(unittest.TestCase):
 
     def test_a_map_that_holds_the_bound_stays(self):
         obj = add_suzanne()
-        bpy.ops.uv.atlas_refine(seams="RECTANGLES", density="EQUAL")
+        bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut="SPLIT", density="EQUAL")
         before = snapshot(obj)
-        self.assertEqual(bpy.ops.uv.atlas_refine(seams="RECTANGLES", density="EQUAL"), {"FINISHED"})
+        self.assertEqual(bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut="SPLIT", density="EQUAL"), {"FINISHED"})
         self.assertEqual(changes(before, snapshot(obj)), [])
 
     def test_failures_leave_the_mesh_alone(self):
@@ -165,14 +165,14 @@ class Rectangles(unittest.TestCase):
         before = snapshot(obj)
         for sigma in (-0.1, 0.5):
             with self.assertRaisesRegex(RuntimeError, "Suzanne: sigma"):
-                bpy.ops.uv.atlas_refine(seams="RECTANGLES", sigma=sigma)
+                bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut="SPLIT", sigma=sigma)
             self.assertEqual(changes(before, snapshot(obj)), [])
         uvs = get_uvs(obj.data.uv_layers.active)
         uvs[17] = np.nan
         set_uvs(obj.data.uv_layers.active, uvs)
         before = snapshot(obj)
         with self.assertRaisesRegex(RuntimeError, "Suzanne.*face 4"):
-            bpy.ops.uv.atlas_refine(seams="RECTANGLES")
+            bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut="SPLIT")
         self.assertEqual(changes(before, snapshot(obj)), [])
 
     def test_a_multiresolution_mesh_and_sculpt_mode_are_refused(self):
@@ -180,13 +180,13 @@ class Rectangles(unittest.TestCase):
         obj.modifiers.new("Detail", "MULTIRES")
         before = snapshot(obj)
         with self.assertRaisesRegex(RuntimeError, "Multiresolution"):
-            bpy.ops.uv.atlas_refine(seams="RECTANGLES")
+            bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut="SPLIT")
         self.assertEqual(changes(before, snapshot(obj)), [])
         self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
         obj.modifiers.clear()
         bpy.ops.object.mode_set(mode="SCULPT")
         with self.assertRaisesRegex(RuntimeError, "object mode or edit mode"):
-            bpy.ops.uv.atlas_refine(seams="RECTANGLES")
+            bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut="SPLIT")
         bpy.ops.object.mode_set(mode="OBJECT")
 
     def test_every_user_of_a_mesh_gets_the_cut(self):
@@ -194,6 +194,6 @@ class Rectangles(unittest.TestCase):
         twin = bpy.data.objects.new("Twin", obj.data)
         bpy.context.collection.objects.link(twin)
         faces = len(obj.data.polygons)
-        self.assertEqual(bpy.ops.uv.atlas_refine(seams="RECTANGLES"), {"FINISHED"})
+        self.assertEqual(bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut="SPLIT"), {"FINISHED"})
         self.assertIs(twin.data, obj.data)
         self.assertGreater(len(twin.data.polygons), faces)

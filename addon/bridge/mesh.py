@@ -54,6 +54,44 @@ def write_uvs(obj, uv_map, uvs):
         raise MeshError("Blender did not store the new UVs as they were given")
 
 
+def read_triangles(obj):
+    """How Blender divides faces of more than three corners: (T, 3) int32 corners."""
+    if obj.mode == "EDIT":
+        mesh = bmesh.from_edit_mesh(obj.data)
+        corners = {loop: corner for corner, loop in enumerate(loop for face in mesh.faces for loop in face.loops)}
+        rows = [[corners[loop] for loop in three] for three in mesh.calc_loop_triangles() if len(three[0].face.loops) > 3]
+        return np.array(rows, dtype=np.int32).reshape(-1, 3)
+    mesh = obj.data
+    versions.calc_loop_triangles(mesh)
+    loops = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
+    mesh.loop_triangles.foreach_get("loops", loops)
+    faces = np.empty(len(mesh.loop_triangles), dtype=np.int32)
+    mesh.loop_triangles.foreach_get("polygon_index", faces)
+    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    return loops.reshape(-1, 3)[sizes[faces] > 3]
+
+
+def mark_seams(obj, edges):
+    """Marks edges, (S, 2) vertices, as seams."""
+    if not len(edges):
+        return
+    wanted = {tuple(sorted(edge)) for edge in np.asarray(edges).tolist()}
+    mesh = obj.data
+    if obj.mode == "EDIT":
+        edit = bmesh.from_edit_mesh(mesh)
+        edit.verts.index_update()
+        for edge in edit.edges:
+            if tuple(sorted(vert.index for vert in edge.verts)) in wanted:
+                edge.seam = True
+        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+        return
+    for edge in mesh.edges:
+        if tuple(sorted(edge.vertices)) in wanted:
+            edge.use_seam = True
+    mesh.update()
+
+
 def _store(obj, uv_map, uvs):
     mesh = obj.data
     if obj.mode == "EDIT":

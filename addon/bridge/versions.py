@@ -77,3 +77,9 @@ def progress_bar(layout, fraction, text):
         layout.progress(factor=fraction, text=text)
     else:
         layout.label(text=f"{text}: {100 * fraction:.0f} %", icon="SORTTIME")
+
+
+def calc_loop_triangles(mesh):
+    """Until 4.0 they are there only once asked for."""
+    if hasattr(mesh, "calc_loop_triangles"):
+        mesh.calc_loop_triangles()

@@ -68,7 +68,7 @@ def plan_cut(source, cut, corner_uvs):
         vertex_sources=vertex_sources,
         vertex_weights=weights,
         edge_splits=_edge_splits(source, corner_sources[first_corners], weights),
-        new_seams=_seam_edges(atlas, numbers[cut.new_seams]),
+        new_seams=seam_edges(atlas, numbers[cut.new_seams]),
     )
 
 
@@ -164,7 +164,7 @@ def _places(positions):
     return np.unique(positions, axis=0, return_inverse=True)[1].reshape(-1)
 
 
-def _seam_edges(atlas, new_seams):
+def seam_edges(atlas, new_seams):
     """The edges that lie where new seams do. Where vertices are doubled a seam has two edges, or goes from one double to the
     other: the engine takes vertices at one position for one."""
     places = _places(atlas.positions)

@@ -8,6 +8,9 @@ from dataclasses import dataclass
 class Options:
     pe_bound: float = 0.8
     seams: str = "NONE"  # NONE or RECTANGLES
+    cut: str = "EDGES"  # EDGES or SPLIT: along the mesh's edges, or across faces
+    open_closed: bool = True
+    stacks: str = "KEEP"  # KEEP or SEPARATE
     sigma: float = 0.004  # of RECTANGLES
     aspect: str = "FREE"  # FREE or SQUARE
     density: str = "KEEP"  # KEEP or EQUAL
@@ -23,6 +26,9 @@ class Options:
             "pe_bound": round(self.pe_bound, 6),  # Blender's properties are float32: 0.8 arrives as 0.800000012
             "box_aspect": 1.0 if self.aspect == "SQUARE" else 0.0,
             "seams": self.seams.lower(),
+            "cut": self.cut.lower(),
+            "open_closed": self.open_closed,
+            "stacks": self.stacks.lower(),
             "density": self.density.lower(),
             "seed": self.seed,
             "best_effort": self.best_effort,

@@ -26,7 +26,7 @@ WAIT_LIMIT_SECONDS = 240  # only what hangs takes as long
 #: Where things are in the sidebar of Blender 3.4.1's UV editor, in pixels from its right and top edge.
 TAB = (10, 130)
 SEAMS = (84, 70)
-BUTTON = (130, 213)
+BUTTON = (130, 259)
 ROW = 23
 
 
@@ -195,6 +195,7 @@ def test_edit_mode_from_the_button():
 def test_rectangles_by_clicks():
     obj = add_mesh(name="Cut")
     bpy.context.view_layer.objects.active = obj
+    bpy.context.scene.atlas_refine.cut = "SPLIT"
     bpy.context.scene.atlas_refine.pe_bound = 0.8
     faces, size = len(obj.data.polygons), mesh_size("Cut")
     bpy.ops.ed.undo_push(message="Made a mesh")
@@ -206,7 +207,7 @@ def test_rectangles_by_clicks():
     yield 0.5
     picture("rectangles")
     tasks().last = None
-    yield from click((BUTTON[0], BUTTON[1] + ROW))  # sigma is shown above it now
+    yield from click((BUTTON[0], BUTTON[1] + 2 * ROW))  # cut and sigma are shown above it now
     yield lambda: tasks().last is not None and not running()
     yield 0.3
     picture("cut")
@@ -228,11 +229,12 @@ def test_rectangles_in_edit_mode_with_custom_normals_and_one_undo():
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.ed.undo_push(message="Made a mesh")
     bpy.context.scene.atlas_refine.seams = "RECTANGLES"
+    bpy.context.scene.atlas_refine.cut = "SPLIT"
     tasks().last = None
     uv_editor().tag_redraw()
     yield 0.3
     faces = len(obj.data.polygons)
-    yield from click((BUTTON[0], BUTTON[1] + ROW))
+    yield from click((BUTTON[0], BUTTON[1] + 2 * ROW))
     yield lambda: tasks().last is not None and not running()
     yield 0.3
     obj = bpy.data.objects["Normals"]
