@@ -62,12 +62,22 @@ CertifiedSolution certified(const Refinement& run, Solution solution, const Prog
   return {std::move(solution), std::move(atlas)};
 }
 
+/// What the charts reach without cuts, if that is less than `most`; that they cannot be placed is no reason against the cuts.
+std::optional<double> distortion_of_whole(const Refinement& run, double most) {
+  try {
+    return distortion_without_cuts(run, most);
+  } catch (const RefineError& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;
+    return std::nullopt;
+  }
+}
+
 /// Where the charts would have been better off without cuts at the same bound, the warnings say so.
 void compare_with_whole(const Refinement& run, const CertifiedSolution& cut, const ProgressRange& range) {
   constexpr double kWorthTelling = 1e-4;  // of E_d
   run.journal.begin_stage("compare", range.part(0.98, 1));
   const double own = cut.atlas.after.distortion;
-  const auto whole = distortion_without_cuts(run, own - kWorthTelling);
+  const auto whole = distortion_of_whole(run, own - kWorthTelling);
   if (!whole) return;
   run.journal.warnings.push_back("without cuts the charts hold the same bound with less distortion: E_d " +
                                  number_text("%.4f", *whole) + " against " + number_text("%.4f", own));

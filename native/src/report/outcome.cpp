@@ -103,7 +103,8 @@ void tell_of(const Participants& participants, const std::vector<Done>& done, Jo
   std::map<std::string, std::vector<int>> left;
   for (const LeftChart& chart : participants.left) left[chart.reason].push_back(chart.chart);
   for (const auto& [reason, charts] : left)
-    journal.warnings.push_back(charts_named(charts) + ": " + reason + "; left as before, outside the atlas");
+    journal.warnings.push_back(charts_named(charts) + (charts.size() == 1 ? ": " : ": each ") + reason +
+                               "; left as before, outside the atlas");
   std::vector<int> stacked;
   for (const Follower& follower : participants.followers) stacked.push_back(follower.chart);
   if (!stacked.empty())
