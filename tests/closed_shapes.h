@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "atlas_refine/atlas.h"
+#include "input/split_charts.h"
 
 namespace atlas_refine::shapes {
 
@@ -55,5 +56,18 @@ inline Atlas cube_sphere(int n) {
   }
   return atlas;
 }
+
+/// UVs once around and once about the tube of a torus, shared where they start again: faces there span the map.
+inline Atlas wrapped(Atlas torus) {
+  for (int c = 0; c < torus.corner_count(); ++c) {
+    const Vec3& p = torus.positions[torus.corner_vertices[c]];
+    const double tube = std::atan2(p.z(), std::hypot(p.x(), p.y()) - 3);
+    torus.corner_uvs[c] = Vec2(std::atan2(p.y(), p.x()), tube) / (2 * std::numbers::pi);
+  }
+  return torus;
+}
+
+/// Charts as they hang together in the UV map, folded ones whole.
+inline std::vector<Chart> unparted(const Atlas& atlas) { return split_charts(atlas, Joining::Exact).charts; }
 
 }  // namespace atlas_refine::shapes

@@ -111,7 +111,7 @@ void expect_locked(const Atlas& atlas, const RefineResult& result, const RefineO
       }
     }
   }
-  const Validity validity = certify_charts(charts, freedom);
+  const Validity validity = certify_charts(charts, {}, freedom);
   EXPECT_TRUE(validity.valid()) << validity.problem;
   for (Chart& chart : charts) {
     for (Vec2& uv : chart.uvs) uv.x() *= aspect;
@@ -168,11 +168,15 @@ TEST(KeptShape, OfAllChartsIsPurePacking) {
   EXPECT_NE(std::string(error.what()).find("all charts are kept in their shapes"), std::string::npos) << error.what();
 }
 
-TEST(KeptShape, OfAChartThatOverlapsItselfIsRefusedByName) {
+TEST(KeptShape, OfAChartThatOverlapsItselfLeavesItByName) {
   const Atlas atlas = shapes::combine({five_charts(), shapes::self_overlapping()});
-  const RefineError error = testing::refusal(atlas, {.pe_bound = 0.7, .keep_shape = flag(atlas, {5})});
+  const RefineResult result = refine(atlas, {.pe_bound = 0.7, .keep_shape = flag(atlas, {5})});
+  EXPECT_EQ(result.charts[5].fate, Fate::Left);
+  EXPECT_NE(result.charts[5].reason.find("is to keep its shape"), std::string::npos) << result.charts[5].reason;
+  const Atlas alone = shapes::self_overlapping();
+  const RefineError error = testing::refusal(alone, {.pe_bound = 0.7, .keep_shape = flag(alone, {0})});
   EXPECT_EQ(error.code(), ErrorCode::BadInput);
-  EXPECT_EQ(error.chart(), 5);
+  EXPECT_EQ(error.chart(), 0);
 }
 
 TEST(KeptShape, IsNotCutIntoRectangles) {

@@ -14,7 +14,7 @@ namespace atlas_refine {
 namespace {
 
 Chart only_chart(const Atlas& atlas) {
-  const std::vector<Chart> charts = testing::charts_of(atlas);
+  const std::vector<Chart> charts = shapes::unparted(atlas);
   EXPECT_EQ(charts.size(), 1u);
   return charts.front();
 }

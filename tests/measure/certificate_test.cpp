@@ -182,13 +182,13 @@ TEST(Certificate, FixedChartsMayOverlapEachOtherButNobodyElse) {
   const Freedoms two = {Freedom::Fixed, Freedom::Fixed, Freedom::Moves};
   const std::vector<Chart> beside = squares(2, 1), across = squares(1.2, 1), in_one = squares(0.1, 0.2),
                            in_both = squares(0.7, 0.2);
-  EXPECT_TRUE(certify_charts(beside, two).valid());
+  EXPECT_TRUE(certify_charts(beside, {}, two).valid());
   EXPECT_FALSE(certify_charts(beside).valid());
-  EXPECT_FALSE(certify_charts(beside, {Freedom::Fixed, Freedom::Bends, Freedom::Bends}).valid());
-  EXPECT_FALSE(certify_charts(across, two).valid());
-  EXPECT_FALSE(certify_charts(in_one, two).valid());
-  EXPECT_FALSE(certify_charts(in_both, two).valid());
-  EXPECT_TRUE(certify_charts(in_one, {Freedom::Fixed, Freedom::Fixed, Freedom::Fixed}).valid());
+  EXPECT_FALSE(certify_charts(beside, {}, {Freedom::Fixed, Freedom::Bends, Freedom::Bends}).valid());
+  EXPECT_FALSE(certify_charts(across, {}, two).valid());
+  EXPECT_FALSE(certify_charts(in_one, {}, two).valid());
+  EXPECT_FALSE(certify_charts(in_both, {}, two).valid());
+  EXPECT_TRUE(certify_charts(in_one, {}, {Freedom::Fixed, Freedom::Fixed, Freedom::Fixed}).valid());
   EXPECT_NEAR(gap_between_charts(beside, two), 0.5, 1e-12);
   EXPECT_EQ(gap_between_charts(beside), 0);
   EXPECT_EQ(gap_between_charts(across, two), 0);
