@@ -1,6 +1,7 @@
 """Several files as one atlas: each result in its own file, all of them or none."""
 
 import json
+import re
 
 import pytest
 from obj_shapes import box_efficiency, grid, records, uvs, without_uvs
@@ -90,13 +91,13 @@ def test_refusals_leave_nothing(program, tmp_path, models):
     assert "a second file of this name" in program.refused(2, models[0], models[0], "-o", tmp_path / "out")
 
 
-def test_face_of_a_later_file_is_named_by_its_line(program, tmp_path, models):
-    """A face without UV area is found by the library, which counts the faces of all files."""
-    last = models[2].read_text().splitlines()[-1]
-    with models[2].open("a") as file:
-        file.write("f " + " ".join(corner.split("/")[0] + "/1/1" for corner in last.split()[1:]) + "\n")
+def test_a_face_is_named_by_file_and_line(program, tmp_path, models):
+    """Where no face has finite UVs the library names the first, which it counts in the faces of all files."""
+    for model in models:
+        model.write_text(re.sub(r"^vt .*$", "vt 2e60 0", model.read_text(), flags=re.MULTILINE))
     message = program.refused(3, *models, "-o", tmp_path / "out")
-    assert message.startswith(f"atlas-refine: {models[2]}: line {len(models[2].read_text().splitlines())}: ")
+    first = next(k for k, line in enumerate(models[0].read_text().splitlines(), 1) if line.startswith("f "))
+    assert message.startswith(f"atlas-refine: {models[0]}: line {first}: ")
 
 
 def test_report_may_not_be_one_of_the_results(program, tmp_path, models):

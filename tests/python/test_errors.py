@@ -90,8 +90,6 @@ def test_a_wrong_shape_or_type_names_the_array(arrays, word):
 @pytest.mark.parametrize(
     "arrays",
     [
-        changed(0, put((3, 1), np.nan)),
-        changed(0, put((3, 1), np.inf)),
         changed(1, put(-1, 10**6)),
         changed(1, put(1, 2)),
         changed(1, put(1, -4)),
@@ -99,7 +97,6 @@ def test_a_wrong_shape_or_type_names_the_array(arrays, word):
         changed(1, lambda a: a[:1]),
         changed(2, put(5, 10**6)),
         changed(2, put(5, -1)),
-        changed(3, put((7, 0), np.nan)),
         changed(3, lambda a: a[:-1]),
         [np.zeros((0, 3)), np.zeros(1, int), np.zeros(0, int), np.zeros((0, 2))],
     ],
@@ -111,20 +108,43 @@ def test_arrays_that_do_not_fit_together(arrays, function):
     assert caught.value.code == "bad_input"
 
 
-def test_the_face_is_named():
-    error = refuse(changed(3, put((4 * 9 + 2, 1), np.nan)))
-    assert error.face == 9
+NOT_FINITE = [changed(0, put((3, 1), np.nan)), changed(0, put((3, 1), np.inf)), changed(3, put((7, 0), np.nan))]
+
+
+@pytest.mark.parametrize("arrays", NOT_FINITE)
+@pytest.mark.parametrize("function", [atlas_refine.measure, atlas_refine.validate])
+def test_what_is_not_finite_cannot_be_measured(arrays, function):
+    with pytest.raises(atlas_refine.AtlasRefineError) as caught:
+        function(*arrays)
+    assert caught.value.code == "bad_input"
+
+
+@pytest.mark.parametrize("arrays", NOT_FINITE)
+def test_faces_that_are_not_finite_are_left_as_they_are(arrays):
+    result = atlas_refine.refine(*arrays)
+    left = [chart for chart in result.charts if chart.fate == "left"]
+    assert left
+    assert all("finite" in chart.reason for chart in left)
+    not_finite = ~np.isfinite(arrays[3]).all(axis=1)
+    assert result.corner_uvs[not_finite].tobytes() == np.asarray(arrays[3], dtype=np.float64)[not_finite].tobytes()
+
+
+def test_where_no_face_is_finite_the_first_is_named():
+    error = refuse(changed(3, lambda a: a * np.nan))
+    assert error.face == 0
     assert error.stage
 
 
-def test_a_flipped_face_is_refused_with_its_chart_and_face():
+def test_a_flipped_face_is_mended_and_told_with_its_chart_and_face():
     positions, face_offsets, corner_vertices, corner_uvs = shapes.loose()
     vertex = corner_vertices[4 * (12 * 4 + 14) + 2]  # inside the second chart
     corner_uvs[corner_vertices == vertex] += [3.0, 0.0]
-    error = refuse([positions, face_offsets, corner_vertices, corner_uvs])
-    assert error.code == "bad_input"
-    assert error.chart == 1
-    assert error.face >= 12 * 4
+    result = atlas_refine.refine(positions, face_offsets, corner_vertices, corner_uvs)
+    (repair,) = result.repairs
+    assert repair.charts == [1]
+    assert repair.faces
+    assert min(repair.faces) >= 12 * 4
+    assert str(repair.faces[0]) in repair.text
 
 
 @pytest.mark.parametrize(
