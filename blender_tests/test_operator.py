@@ -124,12 +124,18 @@ class Operator(unittest.TestCase):
         for pe_bound in (0.0, 1.0, 1.2):
             self.assert_refused(add_mesh(), [], pe_bound=pe_bound)
 
-    def test_a_uv_that_is_not_a_number(self):
+    def test_a_face_with_a_uv_that_is_not_a_number_stays_as_it_is(self):
         obj = add_mesh()
         uvs = get_uvs(obj.data.uv_layers.active)
         uvs[13] = np.nan
         set_uvs(obj.data.uv_layers.active, uvs)
-        self.assert_refused(obj, ["face 3"])
+        self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
+        after = get_uvs(obj.data.uv_layers.active)
+        self.assertEqual(after[12:16].tobytes(), uvs[12:16].tobytes())
+        self.assertNotEqual(after[16:].tobytes(), uvs[16:].tobytes())
+        uvs[:] = np.nan
+        set_uvs(obj.data.uv_layers.active, uvs)
+        self.assert_refused(obj, ["face 0"])
 
     def test_a_bound_out_of_reach(self):
         options = {"pe_bound": 0.999, "gap": "PIXELS", "gap_px": 50, "texture_size": 1024}

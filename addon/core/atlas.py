@@ -23,8 +23,10 @@ class AtlasArrays:
 
 
 def stored_uvs(corner_uvs):
-    """The engine's float64 UVs as Blender's float32. It certified values that float32 holds exactly: anything else is a bug."""
+    """The engine's float64 UVs as Blender's float32. It certified values that float32 holds exactly: anything else is a bug.
+
+    What was no number before still is none."""
     stored = np.ascontiguousarray(corner_uvs, dtype=np.float32)
-    if not np.array_equal(stored.astype(np.float64), corner_uvs):
+    if not np.array_equal(stored.astype(np.float64), corner_uvs, equal_nan=True):
         raise ValueError("the refined UVs do not fit single precision")
     return stored

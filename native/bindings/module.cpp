@@ -68,7 +68,7 @@ group_origins    (G, 2): lower left corner of each group's box; None = (0, 0)
 group_names      what messages call the groups
 keep_shape       (F,) flags: charts with such a face are moved, never bent
 locked           (F,) flags: charts with such a face stay where they are, the others go around them in [0, 1]^2
-no_seam          (n, 2) pairs of vertices: edges that are never cut
+no_seam          (n, 2) pairs of vertices: edges that no cut runs along; "split" may cross some, which a warning counts
 prefer_seam      (n, 2) pairs of vertices: edges that cuts along edges like to follow
 triangles        (n, 3) corners: how you divide faces of more than three corners, where you know
 stored           "double" (default) or "float32": the format you will store; the certificate holds for it

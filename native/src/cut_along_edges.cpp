@@ -2,13 +2,12 @@
 #include "cut_along_edges.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "layout/edge_paths.h"
 #include "layout/trail_paths.h"
 #include "measure/certificate.h"
-#include "measure/distortion.h"
 #include "place_and_squeeze.h"
+#include "report/note_repairs.h"
 
 namespace atlas_refine {
 namespace {
@@ -27,14 +26,11 @@ std::vector<int> charts_left_whole(const Refinement& run, const Layout& layout, 
   return out;
 }
 
-/// Parts of charts that overlap themselves may do so too. They keep their area.
-void mend_pieces(const Refinement& run, CutAtlas& cut, std::vector<int>& mended) {
+/// Parts of charts that overlap themselves may do so too.
+void mend_pieces(const Refinement& run, const Freedoms& freedom, CutAtlas& cut, std::vector<int>& mended) {
   for (Piece& piece : cut.pieces) {
-    if (certify_charts({piece.mesh}).valid()) continue;
-    const double area = uv_area(piece.mesh);
+    if (!bends(freedom, piece.chart) || certify_charts({piece.mesh}).valid()) continue;
     piece.mesh = made_valid(run, piece.mesh);
-    const double scale = std::sqrt(area / uv_area(piece.mesh));
-    for (Vec2& uv : piece.mesh.uvs) uv *= scale;
     mended.push_back(piece.chart);
   }
 }
@@ -46,7 +42,7 @@ Attempt cut_along_edges(const Refinement& run, CutPlan plan, const ProgressRange
       edge_paths(plan.aligned, plan.charts, trace_trails(plan.aligned, plan.layout.trails), plan.prices, run.threads);
   if (paths.empty()) return {.needless = !has_trails(plan.layout), .failure = "along edges no more than slivers can be cut off"};
   CutAtlas cut = cut_along(plan.atlas, plan.sources, paths);
-  mend_pieces(run, cut, plan.mended);
+  mend_pieces(run, plan.freedom, cut, plan.mended);
   RefineOptions options = run.options;
   options.relax = options.relax || !options.rectangles.until_input;
   Solution out = place_and_squeeze({run.input, options, run.monitor, run.journal, run.threads}, cut, false, range);

@@ -98,13 +98,6 @@ std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts) {
 
 }  // namespace
 
-Chart made_valid(const Refinement& run, const Chart& chart) {
-  const RepairOptions options{.open_closed = run.options.open_closed, .threads = run.threads};
-  const RepairedCharts repaired = repair_charts({chart}, options, run.monitor);
-  note_repairs(run, repaired);
-  return repaired.atlas.pieces.front().mesh;
-}
-
 CutPlan plan_cuts(const Refinement& run, const ProgressRange& range) {
   const RefineOptions& options = run.options;
   run.journal.begin_stage("repair", range.part(0, 0.07));

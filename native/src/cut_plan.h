@@ -36,9 +36,6 @@ struct CutPlan {
 /// Throws UnmendedCharts.
 CutPlan plan_cuts(const Refinement& run, const ProgressRange& range);
 
-/// A chart made valid by itself. Throws UnmendedCharts.
-Chart made_valid(const Refinement& run, const Chart& chart);
-
 RectangleReport report_of(const CutPlan& plan);
 
 }  // namespace atlas_refine

@@ -4,14 +4,13 @@
 #include <cmath>
 
 #include "atlas_refine/error.h"
-#include "geometry/guards.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "pack/place_charts.h"
 #include "reduce/goal.h"
 #include "reduce/squeeze.h"
-#include "repair/part_touching.h"
 #include "report/locked.h"
+#include "report/note_repairs.h"
 
 namespace atlas_refine {
 namespace {
@@ -167,16 +166,13 @@ PlacedCharts place_with(const Refinement& run, const std::vector<Chart>& charts,
 
 /// Borders that touch at a vertex (a pinch) may stay so where charts are but moved; no barrier can start from contact.
 bool part_pinches(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts) {
-  std::vector<int> parted;
+  bool parted = false;
   for (std::size_t c = 0; c < charts.size(); ++c) {
     if (!bends(freedom, c) || certify_charts({charts[c]}).valid()) continue;
-    if (auto apart = part_touching(charts[c])) charts[c] = std::move(*apart);
-    drop_broken_guards(charts[c]);
-    parted.push_back(charts[c].number);
+    charts[c] = made_valid(run, charts[c]);
+    parted = true;
   }
-  if (parted.empty()) return false;
-  run.journal.repairs.push_back({.what = "touched itself at a vertex, parted there", .charts = parted});
-  return true;
+  return parted;
 }
 
 Freedoms freedom_of_pieces(const Refinement& run, const CutAtlas& atlas) {

@@ -150,10 +150,12 @@ void restore(const std::vector<Chart>& charts, const Freedoms& freedom, CutAtlas
 }
 
 /// Why this road is not taken with charts that are not to be touched; empty where it is.
-std::string obstacle(const Refinement& run, const Freedoms& freedom) {
-  if (any_fixed(freedom)) return "some are locked, and rectangles cannot be packed around them";
+std::string obstacle(const Refinement& run) {
+  const Freedoms freedom = freedom_of(run.input.set, run.options);
+  if (any_fixed(freedom)) return "some are locked, and parts cannot be placed around them";
   const bool kept = std::find(freedom.begin(), freedom.end(), Freedom::Moves) != freedom.end();
-  if (kept && run.options.rotate == Rotate::None) return "some keep their shapes, and must not be turned";
+  if (kept && run.options.cut == Cut::Split && run.options.rotate == Rotate::None)
+    return "some keep their shapes, and must not be turned";
   return "";
 }
 
@@ -188,9 +190,7 @@ Attempt cut_across_faces(const Refinement& run, const CutPlan& plan, const Progr
 
 Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) {
   const bool along_edges = run.options.cut == Cut::Edges;
-  if (!along_edges) {
-    if (std::string why = obstacle(run, freedom_of(run.input.set, run.options)); !why.empty()) return {.failure = std::move(why)};
-  }
+  if (std::string why = obstacle(run); !why.empty()) return {.failure = std::move(why)};
   CutPlan plan = plan_cuts(run, range.part(0, 0.45));
   if (run.journal.draws()) {
     for (const auto& picture : rectangle_pictures(plan.charts, plan.aligned, plan.layout.trails, run.options.rectangles.sigma))

@@ -28,6 +28,13 @@ Vec2 origin_of(const Part& part, const RefineOptions& options) {
   return given ? options.group_origins[part.group] : Vec2(Vec2::Zero());
 }
 
+/// What is said of the chart that an error names.
+std::string reason_in(const RefineError& error) {
+  const std::string words = error.what(), named = "chart " + std::to_string(error.chart()) + " ";
+  const std::size_t at = words.find(named);
+  return at == std::string::npos ? words : words.substr(at + named.size());
+}
+
 /// One atlas, without the charts that cannot be made valid: those are left as they are. Nothing where none remains.
 std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOptions& options, const ProgressRange& range,
                                        Monitor& monitor, Journal& journal, Part& part, std::vector<LeftChart>& left) {
@@ -44,6 +51,12 @@ std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOpti
         std::erase(part.charts, chart.chart);
         left.push_back(chart);
       }
+    } catch (const RefineError& error) {
+      // A chart too long to be packed is no reason to refuse the others.
+      if (error.code() != ErrorCode::BadInput || error.chart() < 0 || part.charts.size() == 1) throw;
+      journal.back_to(mark);
+      if (std::erase(part.charts, error.chart()) == 0) throw;
+      left.push_back({error.chart(), reason_in(error)});
     }
   }
   return std::nullopt;
@@ -58,7 +71,15 @@ std::vector<Done> refine_parts(const InputAtlas& whole, Participants& participan
   for (Part& part : participants.parts) {
     const double after = before + static_cast<double>(part.charts.size()) / all;
     const Journal::Mark mark = journal.mark();
-    auto outcome = refine_mendable(whole, options, kAtlases.part(before, after), monitor, journal, part, participants.left);
+    auto outcome = [&] {
+      try {
+        return refine_mendable(whole, options, kAtlases.part(before, after), monitor, journal, part, participants.left);
+      } catch (const RefineError& error) {
+        if (participants.parts.size() == 1 || error.code() == ErrorCode::Cancelled) throw;
+        throw RefineError(error.code(), error.stage(), name_of(part.group, options) + ": " + error.what(), error.chart(),
+                          error.face());
+      }
+    }();
     if (outcome) done.push_back({part, std::move(*outcome)});
     if (participants.parts.size() > 1) journal.prefix_from(mark, name_of(part.group, options) + ": ");
     before = after;
@@ -102,9 +123,14 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   AssembledAtlas assembled =
       assemble(whole, participants, refined_parts(done),
                {.stored = options.stored, .divide = divides_faces(options), .triangulate = options.triangulate});
-  measure_seams(atlas, join_edges(atlas, Joining::AsMeant), result.before);
+  const EdgeJoins joins = join_edges(atlas, Joining::AsMeant);
+  measure_seams(atlas, joins, result.before);
   measure_seams(assembled.mesh, join_edges(assembled.mesh, joining_after(participants, done)), result.after);
-  result.added_seams = assembled.cut_edges + parted;
+  const int between_groups = options.groups.empty() ? 0 : whole.set.seam_edges - joins.seam_edges;
+  if (between_groups > 0)
+    journal.warnings.push_back("charts of several groups were parted along " + std::to_string(between_groups) +
+                               (between_groups == 1 ? " edge" : " edges"));
+  result.added_seams = assembled.cut_edges + parted + between_groups;
   result.corner_uvs = std::move(assembled.mesh.corner_uvs);
   result.cut = std::move(assembled.cut);
   result.new_seams = std::move(assembled.new_seams);

@@ -7,8 +7,7 @@
 
 namespace atlas_refine {
 
-/// The least intervention that holds the bound, or, where none does, the best that was found. Throws RefineError(BadInput) naming
-/// the chart that no embedding without a cut exists or was found for.
+/// The least intervention that holds the bound, or, where none does, the best that was found. Throws UnmendedCharts.
 Solution refine_whole(const Refinement& run, const ProgressRange& range);
 
 /// E_d that the charts would have without cuts at the bound; nothing where that is above `most`, or some chart overlaps itself.

@@ -84,7 +84,7 @@ struct RefineOptions {
 
   Cut cut = Cut::Split;  ///< of all cuts: rectangles, holes, closed charts
   /// Charts without a boundary, or with a handle, may be opened along edges where seams are None too: they cannot be flat
-  /// otherwise, and are refused by name.
+  /// otherwise, and are left as they are, by name.
   bool open_closed = false;
   Stacks stacks = Stacks::Keep;
   Collapsed collapsed = Collapsed::Leave;
@@ -104,7 +104,7 @@ struct RefineOptions {
   /// One flag per face, or empty. A chart with a face that is set keeps its UVs, bit for bit; all others go around it. The box is
   /// then [0, 1]^2 (of the texture's shape).
   std::vector<char> locked;
-  std::vector<std::array<int, 2>> no_seam;      ///< edges, as pairs of vertices, that no cut runs along or across
+  std::vector<std::array<int, 2>> no_seam;      ///< edges, as pairs of vertices, that no cut runs along; Cut::Split may cross some, which is told
   std::vector<std::array<int, 2>> prefer_seam;  ///< edges that cuts along edges run along for a tenth of their length's price
 
   std::uint64_t seed = 1;

@@ -60,6 +60,8 @@ Participants take_part(const ChartSet& set, const RefineOptions& options, const 
     const bool without = !has_uvs.empty() && !has_uvs[chart.triangle_faces.front()];
     if (options.collapsed == Collapsed::Leave && (without || is_collapsed(chart, side))) {
       out.left.push_back({k, without ? "has no finite UVs" : "has no area in the UV map"});
+    } else if (has_flag(chart, options.locked) && chart.boundary_loops.empty()) {
+      out.left.push_back({k, "is locked and has no boundary that others could keep away from"});
     } else {
       groups[group_of(chart, options.groups)].push_back(k);
     }
@@ -72,7 +74,10 @@ Participants take_part(const ChartSet& set, const RefineOptions& options, const 
     if (stacks) {
       for (Follower& follower : find_stacks(placed, leaders_first(set, charts, options.locked), kOnEachOther * side)) {
         // A cut can be followed by the same triangles only. What was one chart, folded, was not put on itself on purpose.
-        if (options.seams != Seams::None && !follower.same_triangles) continue;
+        if (options.seams != Seams::None && !follower.same_triangles) {
+          out.unstacked.push_back(follower.chart);
+          continue;
+        }
         if (fold[follower.chart] >= 0 && fold[follower.chart] == fold[follower.leader]) continue;
         follows[follower.chart] = 1;
         out.followers.push_back(std::move(follower));

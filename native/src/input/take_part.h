@@ -26,6 +26,7 @@ struct Participants {
   std::vector<Part> parts;  ///< in the order of their group numbers; none of them empty
   std::vector<LeftChart> left;
   std::vector<Follower> followers;  ///< of charts that take part
+  std::vector<int> unstacked;       ///< that lie on others, whose cuts they could not follow
 };
 
 /// Left: charts whose UVs are all on a point or a line, unless they are to be embedded, and charts of faces without finite

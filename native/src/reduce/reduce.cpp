@@ -103,7 +103,8 @@ double price_of_gain(const Task& task, const Iterate& at, const Schedule& schedu
 std::optional<Step> compute_step(const Task& task, const Iterate& at, Schedule& schedule, TriangleSlots& slots,
                                  BlockSystem& system) {
   assemble(task.model, at.state, schedule.stiffness, slots, system);
-  const auto damping = factor_damped(system, task.model.masses, {schedule.damping, 10, kMostDamping});
+  const auto damping =
+      factor_damped(system, task.model.masses, {schedule.damping, 10, task.bounded() ? kMostDamping : kMostDampingAlone});
   if (!damping) return std::nullopt;
   schedule.damping = *damping;
   Step step{.direction = newton_direction(system)};

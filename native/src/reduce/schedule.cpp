@@ -55,7 +55,7 @@ void adapt(Schedule& schedule, const ScheduleView& view, double price, double fr
   if (fraction >= 0.5)
     schedule.damping = std::max(kLeastDamping, 0.5 * schedule.damping);
   else if (fraction < 0.1)
-    schedule.damping = std::min(kMostDamping, 4 * schedule.damping);
+    schedule.damping = std::min(view.bounded ? kMostDamping : kMostDampingAlone, 4 * schedule.damping);
   const bool near = view.deficit < kNearTarget && (!schedule.relaxing || view.deficit > -kNearTarget);
   schedule.arrived = schedule.arrived || (view.bounded && near);
   if (schedule.arrived) schedule.firmness = std::max(kSoftFirmness, kSoftening * schedule.firmness);

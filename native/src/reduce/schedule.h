@@ -22,7 +22,9 @@ struct ScheduleView {
 };
 
 inline constexpr double kTargetSlack = 2e-5;  ///< aim so much above the bound, relative, that rounding cannot lose it
-inline constexpr double kMostDamping = 1e16;
+inline constexpr double kMostDamping = 1e8;
+/// Without a box, where needles may need more; in one it would crush charts that jam.
+inline constexpr double kMostDampingAlone = 1e16;
 inline constexpr double kMostMargin = 0.006;  ///< the margin a relaxing start begins with
 
 /// `slack` is the smallest slack of any contact, read while relaxing only.

@@ -29,7 +29,7 @@ struct Mended {
 };
 
 Mended mended(const Chart& chart, What what) { return {.atlas = whole_atlas({chart}), .what = what, .reason = ""}; }
-Mended refused(const std::string& reason) { return {.atlas = {}, .what = What::Embedded, .reason = reason}; }
+Mended unmended(const std::string& reason) { return {.atlas = {}, .what = What::Embedded, .reason = reason}; }
 
 /// The face with a triangle that no UVs can give an area; -1 without one.
 int face_of_repeated_vertex(const Chart& chart) {
@@ -50,11 +50,12 @@ CutAtlas opened(const Chart& chart) {
 
 Mended opened_and_embedded(const Chart& chart, const ChartShape& shape, const RepairOptions& options, Monitor& monitor) {
   const std::string what = shape.loops == 0 ? "has no boundary" : "has a handle";
-  if (!options.open_closed) return refused(what + ": it cannot be flat without a seam; --open-closed allows one");
+  if (!options.open_closed) return unmended(what + ": it cannot be flat without a seam; --open-closed allows one");
   CutAtlas atlas = opened(chart);
-  if (atlas.pieces.size() != 1 || !shape_of(atlas.pieces[0].mesh).fits_plane()) return refused(what + " and could not be opened");
+  if (atlas.pieces.size() != 1 || !shape_of(atlas.pieces[0].mesh).fits_plane())
+    return unmended(what + " and could not be opened");
   const auto embedded = embed(atlas.pieces[0].mesh, options.threads, monitor);
-  if (!embedded) return refused(what + " and, opened, no embedding of acceptable distortion was found");
+  if (!embedded) return unmended(what + " and, opened, no embedding of acceptable distortion was found");
   atlas.pieces[0].mesh = *embedded;
   return {.atlas = std::move(atlas), .what = What::Opened, .reason = ""};
 }
@@ -80,12 +81,12 @@ Mended mend_disk(const Chart& chart, const std::vector<char>& bad, const RepairO
   const auto embedded = embed(chart, options.threads, monitor);
   if (in_place && (!embedded || energy(*in_place) < energy(*embedded))) return mended(*in_place, What::Untangled);
   if (embedded) return mended(*embedded, What::Embedded);
-  return refused("overlaps itself and no embedding of acceptable distortion was found");
+  return unmended("overlaps itself and no embedding of acceptable distortion was found");
 }
 
 Mended mend(const Chart& chart, const std::vector<char>& bad, const RepairOptions& options, Monitor& monitor) {
   const int repeated = face_of_repeated_vertex(chart);
-  if (repeated >= 0) return refused("has a face with two corners at one vertex: face " + std::to_string(repeated));
+  if (repeated >= 0) return unmended("has a face with two corners at one vertex: face " + std::to_string(repeated));
   const ChartShape shape = shape_of(chart);
   if (!shape.fits_plane()) return opened_and_embedded(chart, shape, options, monitor);
   return mend_disk(chart, bad, options, monitor);
@@ -110,10 +111,10 @@ std::optional<Mended> mended_where_needed(const Chart& chart, int index, const s
 }
 
 /// A chart whose shape is to be kept must be valid as it is.
-std::optional<Mended> refused_where_invalid(const Chart& chart) {
+std::optional<Mended> unmended_where_invalid(const Chart& chart) {
   const Validity validity = certify_charts({chart});
   if (validity.valid()) return std::nullopt;
-  return refused("is to keep its shape, but " + validity.problem);
+  return unmended("is to keep its shape, but " + validity.problem);
 }
 
 /// The faces of the bad triangles.
@@ -137,7 +138,7 @@ void repair_chart(const Chart& chart, int index, const RepairOptions& options, M
   const std::vector<char> bad = bad_triangles(chart);
   std::optional<Mended> result;
   if (bends(options.freedom, index)) result = mended_where_needed(chart, index, bad, options, monitor);
-  if (!bends(options.freedom, index) && !is_fixed(options.freedom, index)) result = refused_where_invalid(chart);
+  if (!bends(options.freedom, index) && !is_fixed(options.freedom, index)) result = unmended_where_invalid(chart);
   if (!result || !result->reason.empty()) append(whole_atlas({chart}), index, out.atlas);
   if (!result) return;
   ChartRepair repair{.chart = index, .what = result->what, .faces = faces_of(chart, bad)};

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "atlas_refine/error.h"
 #include "geometry/convex_polygon.h"
 #include "geometry/predicates.h"
 
@@ -128,7 +129,10 @@ UsedPoints used_points(const Sources& in, const std::vector<std::vector<FacePart
       }
     }
   }
-  for (const auto& vertex : found) out.vertices.push_back(vertex.value());
+  for (const auto& vertex : found) {
+    if (!vertex) throw RefineError(ErrorCode::NotCertified, "certify", "the result was withheld: a new vertex lies on no face");
+    out.vertices.push_back(*vertex);
+  }
   return out;
 }
 
@@ -176,11 +180,22 @@ void start_at_lowest_corner(const Sources& in, int face, const Piece& piece, std
   std::rotate(outline.begin(), start, outline.end());
 }
 
-void add_face(const Sources& in, const UsedPoints& points, int face, int piece, const std::vector<int>& outline, CutFaces& out) {
+/// The new vertex for a point. Beside a cone's tip two points of one face may be one place in space: the second is doubled.
+int new_vertex(const Sources& in, int point, UsedPoints& points, CutFaces& out) {
+  const int index = points.index[point];
+  const auto first = out.mesh.corner_vertices.begin() + out.mesh.face_offsets.back();
+  const int vertex = static_cast<int>(in.atlas.positions.size()) + index;
+  if (std::find(first, out.mesh.corner_vertices.end(), vertex) == out.mesh.corner_vertices.end()) return index;
+  points.vertices.push_back(NewVertex(points.vertices[index]));
+  out.positions.push_back(Vec3(out.positions[vertex]));
+  return static_cast<int>(points.vertices.size()) - 1;
+}
+
+void add_face(const Sources& in, int face, int piece, const std::vector<int>& outline, UsedPoints& points, CutFaces& out) {
   const Piece& p = in.cut.pieces[piece];
   for (int v : outline) {
     const int corner = p.vertices[v] >= 0 ? in.corner_of(face, p.vertices[v]) : -1;
-    const int index = corner >= 0 ? -1 : points.index[p.points[v]];
+    const int index = corner >= 0 ? -1 : new_vertex(in, p.points[v], points, out);
     const CornerMean mean = corner >= 0 ? CornerMean{{corner, corner, corner}, Vec3(1, 0, 0)}
                                         : mean_on_face(in, face, p.supports[v], points.vertices[index]);
     out.mesh.corner_vertices.push_back(corner >= 0 ? in.atlas.corner_vertices[corner]
@@ -281,7 +296,7 @@ CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut,
       for (std::vector<int>& outline : outlines_of(in, points, out.positions, f, part)) {
         if (turned) std::reverse(outline.begin(), outline.end());
         start_at_lowest_corner(in, f, cut.pieces[part.piece], outline);
-        add_face(in, points, f, part.piece, outline, out);
+        add_face(in, f, part.piece, outline, points, out);
       }
     }
   }

@@ -1,6 +1,9 @@
 // Repairs in words.
 #include "report/note_repairs.h"
 
+#include <cmath>
+
+#include "measure/distortion.h"
 #include "report/locked.h"
 
 namespace atlas_refine {
@@ -28,6 +31,16 @@ std::vector<int> note_repairs(const Refinement& run, const RepairedCharts& repai
     changed.push_back(repair.chart);
   }
   return changed;
+}
+
+Chart made_valid(const Refinement& run, const Chart& chart) {
+  const RepairOptions options{.open_closed = run.options.open_closed, .threads = run.threads};
+  const RepairedCharts repaired = repair_charts({chart}, options, run.monitor);
+  note_repairs(run, repaired);
+  Chart out = repaired.atlas.pieces.front().mesh;
+  const double scale = std::sqrt(uv_area(chart) / uv_area(out));
+  for (Vec2& uv : out.uvs) uv *= scale;
+  return out;
 }
 
 }  // namespace atlas_refine

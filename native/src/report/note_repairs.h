@@ -20,4 +20,7 @@ struct UnmendedCharts {
 /// One line for each chart that was changed. Returns those charts. Throws UnmendedCharts.
 std::vector<int> note_repairs(const Refinement& run, const RepairedCharts& repaired);
 
+/// A chart made valid by itself, at the area that it has. Throws UnmendedCharts.
+Chart made_valid(const Refinement& run, const Chart& chart);
+
 }  // namespace atlas_refine

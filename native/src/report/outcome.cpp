@@ -109,6 +109,11 @@ void tell_of(const Participants& participants, const std::vector<Done>& done, Jo
   for (const Follower& follower : participants.followers) stacked.push_back(follower.chart);
   if (!stacked.empty())
     journal.warnings.push_back(charts_named(stacked) + ": on another chart of the same shape, kept there; the area counts once");
+  if (!participants.unstacked.empty())
+    journal.warnings.push_back(
+        charts_named(participants.unstacked) +
+        ": on another chart of the same shape, but its polygons are divided otherwise and cannot follow cuts; "
+        "placed apart");
   const auto parted = [](const Done& d) {
     return d.outcome.intervention != Intervention::Unchanged && d.outcome.before.gap_between == 0;
   };
