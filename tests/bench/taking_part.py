@@ -25,7 +25,7 @@ def aside(before, charts):
     """Masks of the faces of charts that were left and that lie on others. `charts` are the report's, None where there is none.
 
     Without a report that has these charts, those without UV area are taken for left."""
-    topology = Topology(before)
+    topology = Topology(before, as_meant=True)
     sizes = np.bincount(topology.chart)
     if charts is not None and [chart["faces"] for chart in charts] == sizes.tolist():
         fates = np.array([chart.get("fate", "refined") for chart in charts])
