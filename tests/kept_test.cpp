@@ -186,7 +186,9 @@ TEST(KeptShape, IsNotCutIntoRectangles) {
   ASSERT_EQ(result.intervention, Intervention::Cut);
   const std::vector<int> chart_of = chart_of_faces(atlas);
   for (const PieceReport& piece : result.pieces) {
-    if (piece.chart == 0 || piece.chart == 3) EXPECT_NEAR(piece.area, result.charts[piece.chart].area, 1e-9);
+    if (piece.chart == 0 || piece.chart == 3) {
+      EXPECT_NEAR(piece.area, result.charts[piece.chart].area, 1e-9);
+    }
   }
   for (const int chart : {0, 3}) {
     Pair pair;

@@ -51,7 +51,9 @@ TEST(Sheets, CoincidentVerticesTearNothing) {
       EXPECT_TRUE(result.repairs.empty());
       EXPECT_TRUE(result.fallbacks.empty());
       EXPECT_EQ(result.charts.size(), 1u);
-      if (seams == Seams::None) EXPECT_EQ(result.added_seams, 0);
+      if (seams == Seams::None) {
+        EXPECT_EQ(result.added_seams, 0);
+      }
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "charts.h"
 #include "refine_checks.h"
 #include "shapes.h"
+#include "small_atlases.h"
 #include "support/rng.h"
 
 namespace atlas_refine {
@@ -196,6 +197,25 @@ TEST(Refine, TheAutomaticGapShrinksWhereManyChartsNeedIt) {
   ASSERT_EQ(result.warnings.size(), 1u);
   EXPECT_NE(result.warnings[0].find("gap"), std::string::npos);
   EXPECT_GT(result.gap.value, 0);
+}
+
+/// Wavy strips of a few quads side by side, each squashed to a width and height of the texture of its own.
+Atlas hair_cards(int count) {
+  std::vector<Atlas> cards;
+  for (int k = 0; k < count; ++k) {
+    Atlas card = strip(3);
+    const double length = 3 + (7 * k % 11) * 1.5 / 11;
+    for (Vec2& uv : card.corner_uvs) uv = {(k + 0.72 * uv.y()) / count, 0.3 * uv.x()};
+    for (Vec3& p : card.positions) p = Vec3(0.05 * k + 0.04 * p.y(), length * p.x() / 3, 0.1 * std::sin(2 * p.x() + k));
+    cards.push_back(card);
+  }
+  return shapes::combine(cards);
+}
+
+TEST(Refine, HairCardsKeepALargeGapAndTheirShapes) {
+  const RefineResult result = refine_soundly(hair_cards(120), {});
+  EXPECT_GE(result.gap.value, 0.0005);
+  EXPECT_LT(result.after.distortion, 1.005);
 }
 
 TEST(Refine, ABoundThatAHardGapForbidsNamesTheBestPe) {

@@ -1,4 +1,4 @@
-"""Include directions of native/: support <- geometry <- solve <- measure <- cut <- stages <- repair <- report <- roads <- refine <- io, cli."""
+"""Include directions of native/ (LEVELS), libraries that stay in one place, and what else the structure promises."""
 
 import json
 import pathlib

@@ -63,13 +63,9 @@ def read_triangles(obj):
         return np.array(rows, dtype=np.int32).reshape(-1, 3)
     mesh = obj.data
     versions.calc_loop_triangles(mesh)
-    loops = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
-    mesh.loop_triangles.foreach_get("loops", loops)
-    faces = np.empty(len(mesh.loop_triangles), dtype=np.int32)
-    mesh.loop_triangles.foreach_get("polygon_index", faces)
-    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
-    return loops.reshape(-1, 3)[sizes[faces] > 3]
+    loops = _integers(mesh.loop_triangles, "loops", 3).reshape(-1, 3)
+    faces = _integers(mesh.loop_triangles, "polygon_index")
+    return loops[_integers(mesh.polygons, "loop_total")[faces] > 3]
 
 
 def mark_seams(obj, edges):
@@ -102,15 +98,17 @@ def _store(obj, uv_map, uvs):
         mesh.update()
 
 
+def _integers(elements, attribute, each=1):
+    values = np.empty(each * len(elements), dtype=np.int32)
+    elements.foreach_get(attribute, values)
+    return values
+
+
 def _read_mesh(mesh, uv_map):
     positions = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", positions)
-    corner_vertices = np.empty(len(mesh.loops), dtype=np.int32)
-    mesh.loops.foreach_get("vertex_index", corner_vertices)
-    starts = np.empty(len(mesh.polygons), dtype=np.int32)
-    mesh.polygons.foreach_get("loop_start", starts)
-    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
+    corner_vertices = _integers(mesh.loops, "vertex_index")
+    starts, sizes = _integers(mesh.polygons, "loop_start"), _integers(mesh.polygons, "loop_total")
     offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
     if not np.array_equal(offsets[:-1], starts) or offsets[-1] != len(mesh.loops):
         raise MeshError("the corners of the mesh's faces are not in order: run Mesh.validate() on it")

@@ -57,7 +57,7 @@ py::object plain(const py::handle& value) {
   if (!py::isinstance<py::list>(value)) return py::reinterpret_borrow<py::object>(value);
   py::list entries;
   for (const auto& entry : value) entries.append(plain(entry));
-  return std::move(entries);
+  return entries;
 }
 
 py::dict as_dict(const py::object& self) {

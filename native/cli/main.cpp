@@ -1,6 +1,7 @@
 // The program atlas-refine: mesh files in, the same files with a better atlas out.
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -237,6 +238,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace atlas_refine::cli;
   install_interrupt_handler();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow any more is then an error like a full disk
   try {
     return run(argc, argv);
   } catch (const UsageError& error) {

@@ -37,10 +37,13 @@ void require(bool holds, const std::string& what) {
   std::abort();
 }
 
-bool takes_part(const ChartReport& chart) { return chart.fate != Fate::Left && chart.fate != Fate::Stacked; }
+/// Locked charts may be as they like, and on each other.
+bool takes_part(const ChartReport& chart) {
+  return chart.fate != Fate::Left && chart.fate != Fate::Stacked && chart.fate != Fate::Locked;
+}
 
-/// Of each input face the group of the atlas that it is in, -1 where its chart was left or lies on another one. Nothing where the
-/// program joins faces otherwise than split_charts() does.
+/// Of each input face the group of the atlas that it is in, -1 where its chart was left, lies on another one or is locked.
+/// Nothing where the program joins faces otherwise than split_charts() does.
 std::optional<std::vector<int>> atlas_of_faces(const Atlas& atlas, const RefineOptions& options, const RefineResult& result) {
   const std::vector<Chart> charts = split_charts(atlas).charts;
   std::vector<int> groups = options.groups;

@@ -19,8 +19,12 @@ ObjScanner::ObjScanner(std::string_view text) : text_(text) {
 std::size_t ObjScanner::record_end() const {
   if (at_ < text_.size()) return at_;
   std::size_t end = at_;
-  while (end > 0 && is_blank(text_[end - 1])) --end;
-  return end > 0 && text_[end - 1] == '\\' ? end - 1 : at_;
+  for (std::size_t before = at_; before > 0; --before) {
+    const char c = text_[before - 1];
+    if (c == '\\') end = before - 1;
+    if (c != '\\' && c != '\n' && c != '\r' && !is_blank(c)) break;
+  }
+  return end;
 }
 
 void ObjScanner::skip_indent() {

@@ -14,7 +14,8 @@ class ObjScanner {
   explicit ObjScanner(std::string_view text);
 
   std::size_t at() const { return at_; }
-  /// Where the record ends that was just skipped: a backslash at the end of the text continues nothing and is no part of it.
+  /// Where the record ends that was just skipped: backslashes that only blanks and line ends follow to the end of the
+  /// text continue nothing and are no part of it.
   std::size_t record_end() const;
   bool at_end() const { return at_ >= text_.size(); }
   int line() const { return line_; }

@@ -44,7 +44,8 @@ RepairedCharts with_positive_triangles(const Refinement& run) {
 void turn_kept(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts) {
   const PlaceOptions options{.rotate = run.options.rotate, .align_axes = run.options.align_axes};
   for (std::size_t c = 0; c < charts.size(); ++c) {
-    if (!bends(freedom, c)) charts[c] = place_charts({charts[c]}, options, run.monitor).front();
+    if (!bends(freedom, c) && needles_among({charts[c]}).empty())
+      charts[c] = place_charts({charts[c]}, options, run.monitor).front();
   }
 }
 
@@ -88,12 +89,6 @@ double energy_of_input(const Refinement& run, const CutAtlas& repaired, const st
   const Objective objective = goal_of(run.input.set.charts, repaired, run.options);
   const std::vector<Chart> start = charts;
   return reduce_distortion({.charts = start, .objective = objective, .max_iterations = 0}).energy;
-}
-
-std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts) {
-  std::vector<std::vector<Vec2>> out;
-  for (const Chart& chart : charts) out.push_back(chart.uvs);
-  return out;
 }
 
 }  // namespace

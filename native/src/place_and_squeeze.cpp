@@ -72,13 +72,6 @@ std::vector<PlacedCharts> starts_of(const Refinement& run, const std::optional<P
   return {packing_efficiency(*own, aspect) > packing_efficiency(placed, aspect) ? *own : placed};
 }
 
-std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts) {
-  std::vector<std::vector<Vec2>> out;
-  out.reserve(charts.size());
-  for (const Chart& chart : charts) out.push_back(chart.uvs);
-  return out;
-}
-
 PlacedCharts place(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap,
                    double good_enough) {
   const PlaceOptions options{.gap = gap,
@@ -175,6 +168,12 @@ bool part_pinches(const Refinement& run, const Freedoms& freedom, std::vector<Ch
   return parted;
 }
 
+void require_no_needles(const std::vector<Chart>& pieces) {
+  UnmendedCharts needles;
+  for (const Needle& needle : needles_among(pieces)) needles.charts.push_back({pieces[needle.chart].number, needle.words});
+  if (!needles.charts.empty()) throw needles;
+}
+
 Freedoms freedom_of_pieces(const Refinement& run, const CutAtlas& atlas) {
   const Freedoms of_charts = freedom_of(run.input.set, run.options);
   Freedoms out;
@@ -197,6 +196,7 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
   const auto points = points_in_space(atlas, run.input.set.points);
   std::vector<Chart> pieces = meshes_of(atlas);
   run.journal.begin_stage("pack", range.part(0, 0.25));
+  require_no_needles(pieces);
   std::vector<Gap> gaps = gaps_of(run, pieces, freedom);
   const double good_enough = options.relax && !atlas.seams.empty() ? kNearly * options.pe_bound : options.pe_bound;
   PlacedCharts placed = place_with(run, pieces, freedom, good_enough, gaps);

@@ -28,13 +28,6 @@ Vec2 origin_of(const Part& part, const RefineOptions& options) {
   return given ? options.group_origins[part.group] : Vec2(Vec2::Zero());
 }
 
-/// What is said of the chart that an error names.
-std::string reason_in(const RefineError& error) {
-  const std::string words = error.what(), named = "chart " + std::to_string(error.chart()) + " ";
-  const std::size_t at = words.find(named);
-  return at == std::string::npos ? words : words.substr(at + named.size());
-}
-
 /// One atlas, without the charts that cannot be made valid: those are left as they are. Nothing where none remains.
 std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOptions& options, const ProgressRange& range,
                                        Monitor& monitor, Journal& journal, Part& part, std::vector<LeftChart>& left) {
@@ -45,18 +38,16 @@ std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOpti
     put_in_texture(input, options);
     try {
       return refine_one(input, options, range, monitor, journal);
+    } catch (const RefineError& error) {
+      if (options.groups.empty() || error.code() == ErrorCode::Cancelled) throw;
+      throw RefineError(error.code(), error.stage(), name_of(part.group, options) + ": " + error.what(), error.chart(),
+                        error.face());
     } catch (const UnmendedCharts& unmended) {
       journal.back_to(mark);
       for (const LeftChart& chart : unmended.charts) {
         std::erase(part.charts, chart.chart);
         left.push_back(chart);
       }
-    } catch (const RefineError& error) {
-      // A chart too long to be packed is no reason to refuse the others.
-      if (error.code() != ErrorCode::BadInput || error.chart() < 0 || part.charts.size() == 1) throw;
-      journal.back_to(mark);
-      if (std::erase(part.charts, error.chart()) == 0) throw;
-      left.push_back({error.chart(), reason_in(error)});
     }
   }
   return std::nullopt;
@@ -71,15 +62,7 @@ std::vector<Done> refine_parts(const InputAtlas& whole, Participants& participan
   for (Part& part : participants.parts) {
     const double after = before + static_cast<double>(part.charts.size()) / all;
     const Journal::Mark mark = journal.mark();
-    auto outcome = [&] {
-      try {
-        return refine_mendable(whole, options, kAtlases.part(before, after), monitor, journal, part, participants.left);
-      } catch (const RefineError& error) {
-        if (participants.parts.size() == 1 || error.code() == ErrorCode::Cancelled) throw;
-        throw RefineError(error.code(), error.stage(), name_of(part.group, options) + ": " + error.what(), error.chart(),
-                          error.face());
-      }
-    }();
+    auto outcome = refine_mendable(whole, options, kAtlases.part(before, after), monitor, journal, part, participants.left);
     if (outcome) done.push_back({part, std::move(*outcome)});
     if (participants.parts.size() > 1) journal.prefix_from(mark, name_of(part.group, options) + ": ");
     before = after;
@@ -123,10 +106,10 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   AssembledAtlas assembled =
       assemble(whole, participants, refined_parts(done),
                {.stored = options.stored, .divide = divides_faces(options), .triangulate = options.triangulate});
-  const EdgeJoins joins = join_edges(atlas, Joining::AsMeant);
-  measure_seams(atlas, joins, result.before);
-  measure_seams(assembled.mesh, join_edges(assembled.mesh, joining_after(participants, done)), result.after);
-  const int between_groups = options.groups.empty() ? 0 : whole.set.seam_edges - joins.seam_edges;
+  const SeamCount seams = options.groups.empty() ? seams_of(whole.set) : seams_of(join_edges(atlas, Joining::AsMeant));
+  measure_seams(atlas, seams, result.before);
+  measure_seams(assembled.mesh, seams_of(join_edges(assembled.mesh, joining_after(participants, done))), result.after);
+  const int between_groups = whole.set.seam_edges - seams.edges;
   if (between_groups > 0)
     journal.warnings.push_back("charts of several groups were parted along " + std::to_string(between_groups) +
                                (between_groups == 1 ? " edge" : " edges"));

@@ -16,12 +16,6 @@ bool set_wanted_density(const Refinement& run, std::vector<Chart>& charts) {
   return set_density(charts, wanted_density(run.input.set.charts, density), density, freedom_of(run.input.set, run.options));
 }
 
-std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts) {
-  std::vector<std::vector<Vec2>> out;
-  for (const Chart& chart : charts) out.push_back(chart.uvs);
-  return out;
-}
-
 }  // namespace
 
 Solution refine_whole(const Refinement& run, const ProgressRange& range) {

@@ -108,7 +108,6 @@ def test_a_file_that_grows_too_large_leaves_the_old_one(program, tmp_path, large
     report.write_text("the old report")
 
     def set_limit():
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (MIB // 2, MIB // 2))
 
     command = [program.path, large, "-o", target, "--report", report]

@@ -36,6 +36,7 @@ const std::vector<Dialect> dialects = {
      "4/4\n"},
     {"faces first", faces + positions + uvs},
     {"backslash behind all", faces + positions + uvs.substr(0, uvs.size() - 1) + "\\"},
+    {"backslashes behind all", faces + positions + uvs.substr(0, uvs.size() - 1) + "\\\n \\"},
     {"UVs first", uvs + positions + faces},
     {"three numbers in vt", positions + "vt <0> <0> 0.0\nvt <1> <0> 0.25\nvt <1> <1> -1\nvt <0> <1> 0\n" + faces},
     {"one number in vt", positions + "vt <0><~>\nvt <1><~> # u\nvt <1> <1>\nvt <0> <1> 0\n" + faces},

@@ -120,3 +120,25 @@ def test_importance_has_one_positive_number_for_each_face():
 def test_options_arrive(option):
     plain = cut()[1]
     assert cut(**option)[1].corner_uvs.tobytes() != plain.corner_uvs.tobytes()
+
+
+def test_a_stacked_chart_is_cut_like_its_leader_also_along_a_seam_with_another_chart():
+    """Half a bent sheet, the other half, and a copy of that elsewhere in space on it in the UVs."""
+    positions, faces, uvs = shapes.grid(24, 6, bend=3.0)
+    upper = np.arange(len(faces)) >= 72
+    corner_uvs = uvs[faces] + 30.0 * upper[:, None, None]
+    arrays = (
+        np.concatenate([positions, positions + [0.0, 40.0, 0.0]]),
+        np.arange(0, 4 * (144 + 72) + 1, 4),
+        np.concatenate([faces, faces[upper] + len(positions)]).ravel(),
+        np.concatenate([corner_uvs, corner_uvs[upper]]).reshape(-1, 2),
+    )
+    _, result = cut(arrays)
+    mesh = result.cut
+    assert [chart.fate for chart in result.charts] == ["refined", "refined", "stacked"]
+    ends = np.cumsum(np.diff(mesh.face_offsets)[mesh.face_sources < 144])[-1]
+    places = new_positions(arrays, mesh)[mesh.corner_vertices]
+    begin = np.searchsorted(mesh.face_sources, 72)
+    leader = places[mesh.face_offsets[begin] : ends]
+    assert places[ends:] == pytest.approx(leader + [0.0, 40.0, 0.0], abs=1e-9)
+    assert np.array_equal(result.corner_uvs[ends:], result.corner_uvs[mesh.face_offsets[begin] : ends])

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "charts.h"
+#include "dense_matrix.h"
 #include "finite_differences.h"
 #include "reduce/contact_set.h"
 #include "reduce/model.h"
@@ -94,20 +95,6 @@ class HeldSystem : public ::testing::TestWithParam<Rule> {
     if (parts & Contacts) add_contacts(model, at, contacts, kStiffness, system);
     if (parts & Walls) add_walls(model, at, kStiffness, system);
   }
-  static Eigen::MatrixXd dense(const BlockSystem& system) {
-    const int nodes = system.matrix.node_count();
-    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(2 * nodes, 2 * nodes);
-    for (int i = 0; i < nodes; ++i) {
-      out.block<2, 2>(2 * i, 2 * i) = system.matrix.diagonal[i];
-      for (int j = i + 1; j < nodes; ++j) {
-        const int slot = system.matrix.slot(i, j);
-        if (slot < 0) continue;
-        out.block<2, 2>(2 * i, 2 * j) = system.matrix.off_diagonal[slot];
-        out.block<2, 2>(2 * j, 2 * i) = system.matrix.off_diagonal[slot].transpose();
-      }
-    }
-    return out;
-  }
   /// Rows and columns of the unknowns.
   Eigen::MatrixXd of_unknowns(const Eigen::MatrixXd& matrix) const {
     Eigen::MatrixXd columns(matrix.rows(), count()), out(count(), count());
@@ -178,7 +165,7 @@ TEST_P(HeldSystem, HessianOfTheWallsIsExact) {
   assemble(model_, start_, contacts_, Walls, system);
   const Eigen::MatrixXd numeric = numeric_hessian(gradient, Eigen::VectorXd::Zero(count()), kStep);
   ASSERT_GT(numeric.norm(), 0);
-  expect_close(of_unknowns(dense(system)), numeric, 1e-4);
+  expect_close(of_unknowns(testing::dense(system)), numeric, 1e-4);
 }
 
 TEST_P(HeldSystem, ContactsAreThoseOfFreeVerticesSeenFromTheNodes) {
@@ -191,13 +178,13 @@ TEST_P(HeldSystem, ContactsAreThoseOfFreeVerticesSeenFromTheNodes) {
     const std::vector<Vec2> nodes = step(Eigen::VectorXd::Unit(count(), k));
     for (int n = 0; n < model_.node_count(); ++n) moves.col(k).segment<2>(2 * n) = nodes[n];
   }
-  expect_close(of_unknowns(dense(held)), moves.transpose() * dense(vertices) * moves, 1e-12);
+  expect_close(of_unknowns(testing::dense(held)), moves.transpose() * testing::dense(vertices) * moves, 1e-12);
 }
 
 TEST_P(HeldSystem, ProjectedMatrixIsPositiveSemidefinite) {
   BlockSystem system;
   assemble(model_, start_, contacts_, All, system);
-  const Eigen::VectorXd spectrum = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(system)).eigenvalues();
+  const Eigen::VectorXd spectrum = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(testing::dense(system)).eigenvalues();
   EXPECT_GE(spectrum.minCoeff(), -1e-10 * spectrum.maxCoeff());
 }
 

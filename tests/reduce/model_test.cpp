@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "charts.h"
+#include "dense_matrix.h"
 #include "finite_differences.h"
 #include "reduce/contact_set.h"
 #include "shapes.h"
@@ -88,18 +89,7 @@ class WholeSystem : public ::testing::TestWithParam<Rule> {
   }
   Eigen::MatrixXd assembled_matrix() {
     assemble(start_);
-    const int nodes = model_.vertex_count() + 1;
-    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(2 * nodes, 2 * nodes);
-    for (int i = 0; i < nodes; ++i) {
-      dense.block<2, 2>(2 * i, 2 * i) = system_.matrix.diagonal[i];
-      for (int j = i + 1; j < nodes; ++j) {
-        const int slot = system_.matrix.slot(i, j);
-        if (slot < 0) continue;
-        dense.block<2, 2>(2 * i, 2 * j) = system_.matrix.off_diagonal[slot];
-        dense.block<2, 2>(2 * j, 2 * i) = system_.matrix.off_diagonal[slot].transpose();
-      }
-    }
-    return dense;
+    return testing::dense(system_);
   }
 
   static constexpr double kStiffness = 1e-3;

@@ -6,6 +6,7 @@
 #include "cut/restore_faces.h"
 #include "cut_checks.h"
 #include "geometry/convex_polygon.h"
+#include "sheets.h"
 
 namespace atlas_refine {
 namespace {
@@ -92,17 +93,6 @@ int expect_corner_means(const Atlas& atlas, const CutFaces& out) {
   return new_corners;
 }
 
-/// The atlas with a vertex for each corner, as exporters of normals write it.
-Atlas with_doubled_vertices(const Atlas& atlas) {
-  Atlas out = atlas;
-  out.positions.clear();
-  for (int c = 0; c < atlas.corner_count(); ++c) {
-    out.positions.push_back(atlas.positions[atlas.corner_vertices[c]]);
-    out.corner_vertices[c] = c;
-  }
-  return out;
-}
-
 /// The atlas with every third face wound the other way.
 Atlas with_mixed_winding(const Atlas& atlas) {
   Atlas out = atlas;
@@ -124,7 +114,7 @@ TEST(CutFaces, CornersAreMeansOfCornersOfTheirOwnFace) {
 
 TEST(CutFaces, CornersAreMeansOfCornersOfTheirOwnFaceAlsoWhereVerticesAreDoubledOrFacesTurned) {
   for (const Atlas& atlas : {shapes::mesh(shapes::c_shape(), 0.12), testing::open_box(5)}) {
-    for (const Atlas& other : {with_doubled_vertices(atlas), with_mixed_winding(atlas)})
+    for (const Atlas& other : {unwelded(atlas), with_mixed_winding(atlas)})
       EXPECT_GT(expect_corner_means(other, faces_of(testing::laid(other))), 0);
   }
 }

@@ -6,6 +6,7 @@
 
 #include "finite_differences.h"
 #include "support/rng.h"
+#include "triangle_derivatives.h"
 
 namespace atlas_refine {
 namespace {
@@ -31,23 +32,6 @@ TriangleDerivatives derivatives(const Sample& s, const Eigen::VectorXd& x, doubl
   return foldover_derivatives(s.inverse_edges, x.head<2>(), x.segment<2>(2), x.tail<2>(), epsilon, project);
 }
 
-Eigen::VectorXd gradient(const TriangleDerivatives& d) {
-  Eigen::VectorXd g(6);
-  g << d.gradient[0], d.gradient[1], d.gradient[2];
-  return g;
-}
-
-Eigen::MatrixXd hessian(const TriangleDerivatives& d) {
-  Eigen::MatrixXd h(6, 6);
-  for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3;
-    h.block<2, 2>(2 * k, 2 * k) = d.diagonal[k];
-    h.block<2, 2>(2 * k, 2 * next) = d.off_diagonal[k];
-    h.block<2, 2>(2 * next, 2 * k) = d.off_diagonal[k].transpose();
-  }
-  return h;
-}
-
 TEST(Foldover, DerivativesMatchDifferencesAlsoWhereFlipped) {
   Rng rng(7);
   int flipped = 0;
@@ -55,9 +39,9 @@ TEST(Foldover, DerivativesMatchDifferencesAlsoWhereFlipped) {
     const Sample s = random_sample(rng);
     const double epsilon = k % 2 == 0 ? 1 : 0.3;
     const auto energy = [&](const Eigen::VectorXd& x) { return derivatives(s, x, epsilon, false).energy; };
-    const auto slope = [&](const Eigen::VectorXd& x) { return gradient(derivatives(s, x, epsilon, false)); };
+    const auto slope = [&](const Eigen::VectorXd& x) { return testing::stacked_gradient(derivatives(s, x, epsilon, false)); };
     testing::expect_close(slope(s.x), testing::numeric_gradient(energy, s.x), 1e-5);
-    testing::expect_close(hessian(derivatives(s, s.x, epsilon, false)), testing::numeric_hessian(slope, s.x), 1e-5);
+    testing::expect_close(testing::full_hessian(derivatives(s, s.x, epsilon, false)), testing::numeric_hessian(slope, s.x), 1e-5);
     const Mat2 j = jacobian(s.inverse_edges, s.x.head<2>(), s.x.segment<2>(2), s.x.tail<2>());
     EXPECT_NEAR(energy(s.x), foldover_energy(j, epsilon), 1e-12 * energy(s.x));
     flipped += j.determinant() < 0;
@@ -69,7 +53,7 @@ TEST(Foldover, ProjectedHessianIsPositiveSemidefinite) {
   Rng rng(3);
   for (int k = 0; k < 60; ++k) {
     const Sample s = random_sample(rng);
-    const Eigen::MatrixXd h = hessian(derivatives(s, s.x, 0.2, true));
+    const Eigen::MatrixXd h = testing::full_hessian(derivatives(s, s.x, 0.2, true));
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(h);
     EXPECT_GE(eigen.eigenvalues().minCoeff(), -1e-9 * eigen.eigenvalues().maxCoeff());
   }

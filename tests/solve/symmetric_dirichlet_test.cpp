@@ -6,6 +6,7 @@
 
 #include "finite_differences.h"
 #include "support/rng.h"
+#include "triangle_derivatives.h"
 
 namespace atlas_refine {
 namespace {
@@ -39,23 +40,6 @@ TriangleDerivatives derivatives(const Sample& s, const Eigen::VectorXd& x, bool 
   return symmetric_dirichlet_derivatives(s.rest.inverse_edges, x.head<2>(), x.segment<2>(2), x.tail<2>(), project);
 }
 
-Eigen::VectorXd stacked_gradient(const TriangleDerivatives& d) {
-  Eigen::VectorXd g(6);
-  g << d.gradient[0], d.gradient[1], d.gradient[2];
-  return g;
-}
-
-Eigen::MatrixXd full_hessian(const TriangleDerivatives& d) {
-  Eigen::MatrixXd h(6, 6);
-  for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3;
-    h.block<2, 2>(2 * k, 2 * k) = d.diagonal[k];
-    h.block<2, 2>(2 * k, 2 * next) = d.off_diagonal[k];
-    h.block<2, 2>(2 * next, 2 * k) = d.off_diagonal[k].transpose();
-  }
-  return h;
-}
-
 TEST(SymmetricDirichlet, IsOneForRotations) {
   Mat2 rotation;
   rotation << 0.6, -0.8, 0.8, 0.6;
@@ -79,9 +63,9 @@ TEST(SymmetricDirichlet, DerivativesMatchFiniteDifferences) {
     };
     const TriangleDerivatives d = derivatives(s, s.x, false);
     EXPECT_NEAR(d.energy, energy(s.x), 1e-12 * d.energy);
-    expect_close(stacked_gradient(d), numeric_gradient(energy, s.x), 1e-5);
-    expect_close(full_hessian(d), numeric_hessian([&](const auto& x) { return stacked_gradient(derivatives(s, x, false)); }, s.x),
-                 1e-4);
+    expect_close(testing::stacked_gradient(d), numeric_gradient(energy, s.x), 1e-5);
+    expect_close(testing::full_hessian(d),
+                 numeric_hessian([&](const auto& x) { return testing::stacked_gradient(derivatives(s, x, false)); }, s.x), 1e-4);
   }
 }
 
@@ -90,8 +74,8 @@ TEST(SymmetricDirichlet, ProjectionRemovesNegativeCurvatureAndNothingElse) {
   int projected = 0;
   for (int trial = 0; trial < 500; ++trial) {
     const Sample s = random_sample(rng);
-    const Eigen::MatrixXd exact = full_hessian(derivatives(s, s.x, false));
-    const Eigen::MatrixXd psd = full_hessian(derivatives(s, s.x, true));
+    const Eigen::MatrixXd exact = testing::full_hessian(derivatives(s, s.x, false));
+    const Eigen::MatrixXd psd = testing::full_hessian(derivatives(s, s.x, true));
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> before(exact), after(psd);
     const double scale = before.eigenvalues().cwiseAbs().maxCoeff();
     EXPECT_GE(after.eigenvalues()[0], -1e-10 * scale);

@@ -1,8 +1,6 @@
 // What the paper's road needs of a chart before it is deformed: a disk whose triangulation can become axis-aligned.
 #pragma once
 
-#include <vector>
-
 #include "cut/open_to_disk.h"
 
 namespace atlas_refine {

@@ -222,6 +222,13 @@ std::vector<int> charts_of(const CutAtlas& atlas) {
   return out;
 }
 
+std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts) {
+  std::vector<std::vector<Vec2>> out;
+  out.reserve(charts.size());
+  for (const Chart& chart : charts) out.push_back(chart.uvs);
+  return out;
+}
+
 CutAtlas with_uvs(CutAtlas atlas, const std::vector<std::vector<Vec2>>& uvs) {
   for (std::size_t p = 0; p < atlas.pieces.size(); ++p) atlas.pieces[p].mesh.uvs = uvs[p];
   return atlas;

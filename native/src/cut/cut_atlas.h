@@ -65,6 +65,7 @@ std::vector<std::vector<int>> points_in_space(const CutAtlas& atlas, const std::
 
 std::vector<Chart> meshes_of(const CutAtlas& atlas);
 std::vector<int> charts_of(const CutAtlas& atlas);  ///< of each piece
+std::vector<std::vector<Vec2>> uvs_of(const std::vector<Chart>& charts);
 /// The atlas with other UVs, one array per piece.
 CutAtlas with_uvs(CutAtlas atlas, const std::vector<std::vector<Vec2>>& uvs);
 

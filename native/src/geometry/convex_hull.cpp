@@ -4,7 +4,6 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/convex_hull_2.h>
 
-#include <algorithm>
 #include <iterator>
 
 namespace atlas_refine {

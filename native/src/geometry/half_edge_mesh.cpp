@@ -2,7 +2,6 @@
 #include "geometry/half_edge_mesh.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <algorithm>
 
 namespace atlas_refine {
 

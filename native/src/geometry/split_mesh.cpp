@@ -4,11 +4,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <map>
 #include <tuple>
-
-#include "geometry/plane.h"
 
 namespace atlas_refine {
 namespace {

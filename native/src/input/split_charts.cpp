@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <string>
 
 #include "atlas_refine/error.h"
 #include "geometry/half_edge_mesh.h"

@@ -1,8 +1,6 @@
 // Walking along an axis from vertex to vertex.
 #include "layout/axis_trails.h"
 
-#include <cmath>
-
 #include "atlas_refine/error.h"
 #include "geometry/axis_aligned_chart.h"
 #include "geometry/plane.h"

@@ -1,8 +1,6 @@
 // One chart after the other: distances from each trail, a shortest path, and the parts that all paths leave.
 #include "layout/edge_paths.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <queue>
 

@@ -2,7 +2,6 @@
 #include "measure/metrics.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "measure/certificate.h"
 #include "measure/distortion.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "measure/distortion.h"
 #include "pack/layout.h"
 #include "pack/occupancy.h"
 #include "support/parallel.h"

@@ -61,19 +61,12 @@ int face_with_longest_side(const Chart& chart) {
   return chart.triangle_faces[worst - chart.triangles.begin()];
 }
 
-/// A needle has no size that gap and box could go by.
-void require_no_needles(const std::vector<Chart>& charts, double area) {
-  const double side = std::sqrt(area);
-  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
-    const double times = uv_box({charts[c]}).diagonal() / side;
-    if (times <= kLongestChart) continue;
-    char text[32];
-    std::snprintf(text, sizeof text, "%.0f", times);
-    throw RefineError(ErrorCode::BadInput, "pack",
-                      "chart " + std::to_string(charts[c].number) + " is too long to be packed: " + text +
-                          " sides of a square that holds all charts",
-                      charts[c].number, face_with_longest_side(charts[c]));
-  }
+void require_no_needles(const std::vector<Chart>& charts) {
+  const std::vector<Needle> needles = needles_among(charts);
+  if (needles.empty()) return;
+  const Chart& chart = charts[needles.front().chart];
+  throw RefineError(ErrorCode::BadInput, "pack", "chart " + std::to_string(chart.number) + " " + needles.front().words,
+                    chart.number, face_with_longest_side(chart));
 }
 
 /// What the packer may do with a chart, which is first turned onto an axis where that is asked.
@@ -91,6 +84,19 @@ Outline prepared_outline(const PlaceOptions& options, Chart& chart) {
 
 }  // namespace
 
+std::vector<Needle> needles_among(const std::vector<Chart>& charts) {
+  const double side = std::sqrt(uv_area(charts));
+  std::vector<Needle> out;
+  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+    const double sides = box_of_points(charts[c].uvs).diagonal() / side;
+    if (sides <= kLongestChart) continue;
+    char words[96];
+    std::snprintf(words, sizeof words, "is too long to be packed: %.0f sides of a square that holds all charts", sides);
+    out.push_back({c, words});
+  }
+  return out;
+}
+
 std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOptions& options, Monitor& monitor) {
   std::vector<Chart> placed = charts;
   std::vector<Outline> outlines;
@@ -101,7 +107,7 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
     areas.push_back(uv_area(chart));
     area += areas.back();
   }
-  require_no_needles(charts, area);
+  require_no_needles(charts);
   require_room(options.gap, options.box_aspect, charts.size());
   PackOptions pack{.gap = 0,
                    .box_aspect = options.box_aspect,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "atlas_refine/options.h"
@@ -20,6 +21,14 @@ struct PlaceOptions {
   Rotate rotate = Rotate::Any;
   bool align_axes = false;  ///< charts whose longest border runs straight get it onto an axis, unless rotate is None
 };
+
+/// A chart so long that it has no size that gap and box could go by.
+struct Needle {
+  int chart;
+  std::string words;  ///< continue "chart 3 "
+};
+/// Charts longer than 400 sides of a square that holds all of them.
+std::vector<Needle> needles_among(const std::vector<Chart>& charts);
 
 /// The same charts, rigidly moved, at least the gap apart. Their scales and shapes are kept.
 std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOptions& options, Monitor& monitor);

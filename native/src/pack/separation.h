@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "pack/layout.h"
-#include "support/rng.h"
 
 namespace atlas_refine {
 

@@ -24,15 +24,6 @@ constexpr double kLongestMove = 0.25;
 constexpr double kBoxGrowth = 0.0035;  // of a box of fixed aspect
 constexpr double kShortOf = 0.95;      // of the first flip or collision
 
-Box box_of(const std::vector<Vec2>& x) {
-  Box box{x.front(), x.front()};
-  for (const Vec2& p : x) {
-    box.min = box.min.cwiseMin(p);
-    box.max = box.max.cwiseMax(p);
-  }
-  return box;
-}
-
 void flatten(const std::vector<Chart>& charts, ReduceModel& model) {
   int count = 0;
   for (const Chart& chart : charts) {
@@ -54,7 +45,7 @@ void place_in_frame(const Vec2& frame, ReduceModel& model) {
 }
 
 void place_start(ReduceModel& model) {
-  const Box tight = box_of(model.start.x);
+  const Box tight = box_of_points(model.start.x);
   const Vec2 size = box_of_aspect(tight, model.aspect).size();
   const auto pieces = static_cast<double>(model.first_vertex.size() - 1);
   model.range = std::min(kRangeFraction * size.norm(), kRangeOfChart * std::sqrt(size.prod() / pieces));
@@ -178,7 +169,7 @@ double box_pe(const ReduceModel& model, const ReduceState& state) {
 
 double tight_pe(const ReduceModel& model, const ReduceState& state) {
   if (!model.lever.empty()) return box_pe(model, state);
-  return chart_area(model, state.x) / box_of_aspect(box_of(state.x), model.aspect).area();
+  return chart_area(model, state.x) / box_of_aspect(box_of_points(state.x), model.aspect).area();
 }
 
 double model_energy(const ReduceModel& model, const std::vector<Vec2>& x) {

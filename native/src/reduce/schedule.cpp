@@ -2,7 +2,6 @@
 #include "reduce/schedule.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace atlas_refine {
 namespace {

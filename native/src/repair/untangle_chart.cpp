@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "geometry/plane.h"
 #include "geometry/rest_triangle.h"

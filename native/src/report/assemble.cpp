@@ -78,9 +78,10 @@ Support moved(Support support, const Mapping& map) {
   return support;
 }
 
-int own_point(int leaders, Mapping& map, std::vector<SurfacePoint>& points) {
+/// `support`: where on the follower it lies. The leader's point may be told by another chart that has it too.
+int own_point(int leaders, const Support& support, Mapping& map, std::vector<SurfacePoint>& points) {
   const auto [at, added] = map.points.emplace(leaders, static_cast<int>(points.size()));
-  if (added) points.push_back({map.chart, moved(points[leaders].support, map)});
+  if (added) points.push_back({map.chart, support});
   return at->second;
 }
 
@@ -88,8 +89,10 @@ int own_point(int leaders, Mapping& map, std::vector<SurfacePoint>& points) {
 Piece followed(Piece piece, const Chart& own, Mapping& map, std::vector<SurfacePoint>& points) {
   piece.chart = map.chart;
   for (int& v : piece.vertices) v = v < 0 ? -1 : map.vertex[v];
-  for (int& p : piece.points) p = p < 0 ? -1 : own_point(p, map, points);
-  for (Support& support : piece.supports) support = moved(support, map);
+  for (std::size_t v = 0; v < piece.points.size(); ++v) {
+    piece.supports[v] = moved(piece.supports[v], map);
+    if (piece.points[v] >= 0) piece.points[v] = own_point(piece.points[v], piece.supports[v], map, points);
+  }
   for (std::size_t t = 0; t < piece.sources.size(); ++t) {
     piece.sources[t] = map.triangle[piece.sources[t]];
     piece.mesh.triangle_faces[t] = own.triangle_faces[piece.sources[t]];
@@ -120,7 +123,7 @@ void follow(const Follower& follower, const std::vector<Chart>& charts, Whole& o
   Mapping map = mapping_of(follower, charts);
   for (const int p : pieces)
     add_piece(followed(out.atlas.pieces[p], charts[follower.chart], map, out.atlas.points), out.uvs[p], out);
-  const auto end = [&](int e) { return e < 0 ? ~own_point(~e, map, out.atlas.points) : map.vertex[e]; };
+  const auto end = [&](int e) { return e < 0 ? ~map.points.at(~e) : map.vertex[e]; };
   const std::size_t seams = out.atlas.seams.size();
   for (std::size_t k = 0; k < seams; ++k) {
     const Seam seam = out.atlas.seams[k];

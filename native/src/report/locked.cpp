@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "atlas_refine/error.h"
-#include "measure/distortion.h"
 #include "report/journal.h"
 
 namespace atlas_refine {

@@ -29,7 +29,7 @@ Measures measure(const Atlas& atlas, double box_aspect) {
   const Participants all = take_part(whole.set, {}, {});
   Measures measures;
   if (!all.parts.empty()) measures = part_of(whole, all.parts.front().charts, box_aspect).measures;
-  measure_seams(atlas, join_edges(atlas, Joining::AsMeant), measures);
+  measure_seams(atlas, seams_of(whole.set), measures);
   return measures;
 }
 
@@ -66,10 +66,10 @@ Measures combined(const std::vector<Measures>& parts, const std::vector<double>&
   return out;
 }
 
-void measure_seams(const Atlas& atlas, const EdgeJoins& joins, Measures& measures) {
-  measures.seam_edges = joins.seam_edges;
+void measure_seams(const Atlas& atlas, const SeamCount& seams, Measures& measures) {
+  measures.seam_edges = seams.edges;
   const double diagonal = bounding_box_diagonal(atlas);
-  measures.boundary_length = diagonal > 0 ? joins.seam_length / diagonal : 0;
+  measures.boundary_length = diagonal > 0 ? seams.length / diagonal : 0;
 }
 
 void stretch_to_texture(std::vector<Chart>& charts, double box_aspect) {

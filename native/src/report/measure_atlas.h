@@ -27,8 +27,16 @@ InputAtlas part_of(const InputAtlas& whole, const std::vector<int>& charts, doub
 /// Of all parts: the least PE, box and gaps, the means of distortion by area, sums and maxima of the rest. Seams are left out.
 Measures combined(const std::vector<Measures>& parts, const std::vector<double>& areas);
 
+/// Edges in space that are no seams of the surface's own border but of the UV map, and their length.
+struct SeamCount {
+  int edges = 0;
+  double length = 0;
+};
+inline SeamCount seams_of(const EdgeJoins& joins) { return {joins.seam_edges, joins.seam_length}; }
+inline SeamCount seams_of(const ChartSet& set) { return {set.seam_edges, set.seam_length}; }
+
 /// Sets what is measured on seams.
-void measure_seams(const Atlas& atlas, const EdgeJoins& joins, Measures& measures);
+void measure_seams(const Atlas& atlas, const SeamCount& seams, Measures& measures);
 
 /// The charts' UVs in units of the texture.
 void stretch_to_texture(std::vector<Chart>& charts, double box_aspect);

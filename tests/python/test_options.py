@@ -1,0 +1,176 @@
+"""Options of refine() that say what a chart, a face or an edge may become: each is seen in the result."""
+
+import atlas_refine
+import numpy as np
+import pytest
+import shapes
+
+FAST = {"seams": "rectangles", "candidates": 20}
+
+
+def faces_of(first, last):
+    """Flags of the faces of shapes.loose(), whose three charts have 48, 36 and 18 faces."""
+    flags = np.zeros(48 + 36 + 18, dtype=bool)
+    flags[first:last] = True
+    return flags
+
+
+def corners_of(first, last):
+    return slice(4 * first, 4 * last)
+
+
+def cube():
+    """A closed cube whose UVs are a point: no flat map has it without a seam."""
+    positions = np.array([[x, y, z] for z in (0.0, 1.0) for y in (0.0, 1.0) for x in (0.0, 1.0)])
+    faces = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+    return positions, np.arange(0, 25, 4), faces.ravel(), np.full((24, 2), 0.5)
+
+
+def stacked():
+    """Two sheets of the same shape on each other in the UVs, and one beside them."""
+    return shapes.join(shapes.grid(4, 4), shapes.grid(4, 4), shapes.grid(6, 2, origin=(9.0, 8.0)))
+
+
+def seams_of(result):
+    return {tuple(sorted(pair)) for pair in result.new_seams.tolist()}
+
+
+def test_a_closed_chart_is_left_unless_it_may_be_opened():
+    arrays = cube()
+    with pytest.raises(atlas_refine.AtlasRefineError, match="chart 0 has no boundary"):
+        atlas_refine.refine(*arrays, pe_bound=0.5, collapsed="embed")
+    result = atlas_refine.refine(*arrays, pe_bound=0.5, collapsed="embed", open_closed=True)
+    assert result.charts[0].fate == "refined"
+    assert len(seams_of(result)) == result.added_seams > 0
+    validity = atlas_refine.validate(*arrays[:3], result.corner_uvs)
+    assert validity.valid, validity.problem
+
+
+@pytest.mark.parametrize("stacks", ["keep", "separate"])
+def test_stacks(stacks):
+    arrays = stacked()
+    result = atlas_refine.refine(*arrays, pe_bound=0.6, stacks=stacks)
+    first, second = result.corner_uvs[corners_of(0, 16)], result.corner_uvs[corners_of(16, 32)]
+    assert np.array_equal(first, second) == (stacks == "keep")
+    assert {chart.fate for chart in result.charts} == ({"refined", "stacked"} if stacks == "keep" else {"refined"})
+    assert [chart.stacked_on for chart in result.charts][1] == (0 if stacks == "keep" else -1)
+
+
+@pytest.mark.parametrize("collapsed", ["leave", "embed"])
+def test_collapsed_charts(collapsed):
+    flat = shapes.grid(3, 3)
+    arrays = shapes.join(shapes.grid(6, 6, bend=1.0 / 7), (flat[0], flat[1], np.full_like(flat[2], 40.0)))
+    result = atlas_refine.refine(*arrays, pe_bound=0.7, collapsed=collapsed)
+    uvs = result.corner_uvs[corners_of(36, 45)]
+    if collapsed == "leave":
+        assert np.all(uvs == 40.0)
+        assert result.charts[1].fate == "left"
+        assert result.charts[1].reason
+    else:
+        assert np.ptp(uvs, axis=0).min() > 0
+        assert result.charts[1].fate == "refined"
+        assert atlas_refine.validate(*arrays[:3], result.corner_uvs).valid
+
+
+@pytest.mark.parametrize(("rotate", "quarters"), [("none", (0,)), ("90", (0, 1, 2, 3))])
+def test_rotate(rotate, quarters):
+    """At a bound that moving alone holds, each chart is turned by none or by quarter turns."""
+    arrays = shapes.join(shapes.grid(5, 3), shapes.grid(4, 7, origin=(30.0, 3.0)), shapes.grid(2, 6, origin=(2.0, 40.0)))
+    result = atlas_refine.refine(*arrays, pe_bound=0.6, rotate=rotate)
+    assert result.intervention == "moved"
+    for begin in arrays[1][[0, 15, 43]]:
+        (x0, y0), (x, y) = (uvs[begin + 1] - uvs[begin] for uvs in (arrays[3], result.corner_uvs))
+        turn = np.degrees(np.arctan2(y, x) - np.arctan2(y0, x0)) / 90
+        assert round(turn) % 4 in quarters
+        assert turn == pytest.approx(round(turn), abs=1e-6)
+
+
+def test_align_axes_turns_straight_borders_onto_an_axis():
+    grids = [shapes.grid(7, 3), shapes.grid(5, 5, origin=(30.0, 0.0))]
+    turn = np.array([[np.cos(0.3), np.sin(0.3)], [-np.sin(0.3), np.cos(0.3)]])
+    arrays = shapes.join(*((positions, faces, uvs @ turn) for positions, faces, uvs in grids))
+    result = atlas_refine.refine(*arrays, pe_bound=0.6, align_axes=True)
+    assert result.intervention == "moved"
+    for begin in arrays[1][[0, 21]]:
+        edge = np.abs(result.corner_uvs[begin + 1] - result.corner_uvs[begin])
+        assert edge.min() < 1e-9 * edge.max()
+
+
+def test_triangulate_leaves_no_larger_polygon_where_a_face_is_cut():
+    arrays = shapes.loose()
+    plain = atlas_refine.refine(*arrays, **FAST).cut
+    cut = atlas_refine.refine(*arrays, **FAST, triangulate=True).cut
+    parts = np.bincount(cut.face_sources)[cut.face_sources]
+    assert np.diff(cut.face_offsets)[parts > 1].max() == 3
+    assert len(cut.face_sources) > len(plain.face_sources)
+
+
+def test_groups_are_atlases_of_their_own():
+    arrays = shapes.loose()
+    groups = np.where(faces_of(0, 48), 0, 1)
+    origins = [[0.0, 0.0], [1.0, 0.0]]
+    result = atlas_refine.refine(
+        *arrays, pe_bound=0.7, groups=groups, group_origins=origins, group_names=["bark", "leaf"], box_aspect=1.0
+    )
+    assert [(g.group, g.name, g.charts) for g in result.groups] == [(0, "bark", 1), (1, "leaf", 2)]
+    assert all(g.bound_met and g.after.pe_fixed_aspect >= 0.7 for g in result.groups)
+    bark, leaf = result.corner_uvs[corners_of(0, 48)], result.corner_uvs[corners_of(48, 102)]
+    assert bark.min() >= 0
+    assert bark.max() <= 1
+    assert leaf[:, 0].min() >= 1
+    assert leaf[:, 0].max() <= 2
+
+
+def test_keep_shape_moves_and_never_bends():
+    arrays = shapes.loose()
+    result = atlas_refine.refine(*arrays, pe_bound=0.8, keep_shape=faces_of(0, 1))
+    assert [chart.fate for chart in result.charts] == ["kept", "refined", "refined"]
+    before, after = arrays[3][corners_of(0, 48)], result.corner_uvs[corners_of(0, 48)]
+    sides = [np.linalg.norm(uvs - np.roll(uvs, 1, axis=0), axis=1) for uvs in (before, after)]
+    assert sides[1] / sides[1].sum() == pytest.approx(sides[0] / sides[0].sum(), rel=1e-9)
+
+
+def test_locked_charts_stay_to_the_bit():
+    positions, offsets, corners, uvs = shapes.loose()
+    uvs = uvs / 30
+    locked = faces_of(48, 84)
+    result = atlas_refine.refine(positions, offsets, corners, uvs, pe_bound=0.5, locked=locked, best_effort=True)
+    assert result.charts[1].fate == "locked"
+    assert np.array_equal(result.corner_uvs[corners_of(48, 84)], uvs[corners_of(48, 84)])
+    assert not np.array_equal(result.corner_uvs[corners_of(0, 48)], uvs[corners_of(0, 48)])
+    assert result.corner_uvs.min() >= 0
+    assert result.corner_uvs.max() <= 1
+
+
+def test_no_seam_edges_stay_whole_and_preferred_ones_are_cut_more():
+    arrays = shapes.join(shapes.grid(16, 4, bend=4.0))
+    options = dict(FAST, cut="edges", pe_bound=0.7)
+    free = seams_of(atlas_refine.refine(*arrays, **options))
+    assert free
+    ring = sorted(free)[: len(free) // 2]
+    kept = atlas_refine.refine(*arrays, **options, no_seam=ring, best_effort=True)
+    assert not seams_of(kept) & set(ring)
+    column = [(17 * j + 5, 17 * (j + 1) + 5) for j in range(4)]
+    preferred = seams_of(atlas_refine.refine(*arrays, **options, prefer_seam=column))
+    assert len(preferred & set(column)) >= len(free & set(column))
+
+
+def test_the_callers_triangles_are_the_surface():
+    """A pentagon that is not flat is another surface under another division."""
+    turn = 2 * np.pi * np.arange(5) / 5
+    positions = np.column_stack([np.cos(turn), np.sin(turn), [0.6, 0.0, 0.0, 0.0, 0.0]])
+    arrays = positions, [0, 5], [0, 1, 2, 3, 4], positions[:, :2]
+    divisions = [[0, 1, 2], [0, 2, 3], [0, 3, 4]], [[1, 2, 3], [1, 3, 4], [1, 4, 0]]
+    fan, other = (atlas_refine.refine(*arrays, pe_bound=0.3, triangles=division).before.distortion for division in divisions)
+    assert fan == atlas_refine.refine(*arrays, pe_bound=0.3).before.distortion
+    assert other != pytest.approx(fan, rel=1e-3)
+    with pytest.raises(atlas_refine.AtlasRefineError, match="triangle 0 does not have three corners of one face"):
+        atlas_refine.refine(*arrays, pe_bound=0.3, triangles=[[0, 1, 9]])
+
+
+def test_relax_goes_on_to_the_least_distortion_under_the_bound():
+    arrays = shapes.loose()
+    plain, relaxed = (atlas_refine.refine(*arrays, pe_bound=0.6, relax=relax) for relax in (False, True))
+    assert (plain.intervention, relaxed.intervention) == ("moved", "squeezed")
+    assert relaxed.after.pe >= 0.6
+    assert relaxed.after.distortion < plain.after.distortion
