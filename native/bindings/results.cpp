@@ -227,6 +227,7 @@ void bind_refine_result(py::module_& module) {
       .field("iterations", &RefineResult::iterations)
       .property("ended", [](const RefineResult& r) { return to_string(r.ended); })
       .field("charts", &RefineResult::charts)
+      .property("face_charts", [](const RefineResult& r) { return to_array(r.face_charts); })
       .field("pieces", &RefineResult::pieces)
       .field("rectangles", &RefineResult::rectangles)
       .field("groups", &RefineResult::groups)

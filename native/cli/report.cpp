@@ -1,6 +1,7 @@
 // What the program tells: a JSON report, a summary for people, the table of `measure`.
 #include "report.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -142,6 +143,33 @@ Json to_json(const PieceReport& piece, std::size_t index) {
           {"stretch_max", number(piece.stretch_max)}};
 }
 
+/// Of each chart the first and last number of every run of faces of the input that it has.
+std::vector<std::vector<std::array<int, 2>>> face_ranges(const RefineResult& result) {
+  std::vector<std::vector<std::array<int, 2>>> ranges(result.charts.size());
+  int previous = -1;
+  for (int f = 0; f < static_cast<int>(result.face_charts.size()); ++f) {
+    const int chart = result.face_charts[f];
+    if (chart == previous)
+      ranges[chart].back()[1] = f;
+    else
+      ranges[chart].push_back({f, f});
+    previous = chart;
+  }
+  return ranges;
+}
+
+/// With the faces of those that are no part of the atlas.
+Json charts_of(const RefineResult& result) {
+  const auto ranges = face_ranges(result);
+  Json list = Json::array();
+  for (std::size_t k = 0; k < result.charts.size(); ++k) {
+    const Fate fate = result.charts[k].fate;
+    Json& chart = list.emplace_back(to_json(result.charts[k], k));
+    chart["face_ranges"] = fate == Fate::Left || fate == Fate::Stacked ? Json(ranges[k]) : Json(nullptr);
+  }
+  return list;
+}
+
 template <class Entry>
 Json numbered(const std::vector<Entry>& entries) {
   Json list = Json::array();
@@ -228,7 +256,7 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
                {"price", number(result.price)},
                {"iterations", result.iterations},
                {"ended", to_string(result.ended)},
-               {"charts", numbered(result.charts)},
+               {"charts", charts_of(result)},
                {"pieces", numbered(result.pieces)},
                {"rectangles", result.rectangles ? to_json(*result.rectangles) : Json(nullptr)},
                {"groups", list_of(result.groups)},

@@ -55,7 +55,7 @@ class Joins:
             self._join_equal(np.column_stack([ends, value[self.low], value[self.high]]))
         if as_meant:
             self._join_near()
-        self._join_within_charts()
+        self._join_ambiguous()
 
     def _unite(self, one, two, crosswise=False):
         self.partner[one], self.partner[two] = two, one
@@ -134,14 +134,23 @@ class Joins:
                 layer[h] = sum(g < h and self.side[g] == self.side[h] and self._shape(g) == self._shape(h) for g in group)
         return layer
 
-    def _join_within_charts(self):
+    def _join_ambiguous(self):
+        """Where one pair of the half-edges is of one chart already, else of one shell: what edges of two faces hold together in space."""
         if not self.ambiguous:
             return
+        faces = len(self.obj.offsets) - 1
         one = np.flatnonzero(self.partner > np.arange(len(self.partner)))
-        chart = components(len(self.obj.offsets) - 1, self.face[one], self.face[self.partner[one]])[self.face]
+        self._join_within(components(faces, self.face[one], self.face[self.partner[one]]))
+        order = np.argsort(self.edge, kind="stable")
+        first = np.flatnonzero(np.r_[True, np.diff(self.edge[order]) > 0])
+        two = first[np.diff(np.r_[first, len(order)]) == 2]
+        self._join_within(components(faces, self.face[order[two]], self.face[order[two + 1]]))
+
+    def _join_within(self, part):
+        part = part[self.face]
         for sides in self.ambiguous:
             left, right = ([h for h in side if self.partner[h] < 0] for side in sides)
             for a in left:
-                others = [b for b in right if chart[b] == chart[a]]
-                if len(others) == 1 and sum(chart[c] == chart[a] for c in left) == 1:
+                others = [b for b in right if part[b] == part[a]]
+                if len(others) == 1 and sum(part[c] == part[a] for c in left) == 1:
                     self._unite(a, others[0])

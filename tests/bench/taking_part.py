@@ -21,17 +21,30 @@ def of_faces(obj, chosen):
     )
 
 
-def aside(before, charts):
-    """Masks of the faces of charts that were left and that lie on others. `charts` are the report's, None where there is none.
+def with_fate(charts, fate, face_count):
+    """A mask of the faces of charts with this fate."""
+    chosen = np.zeros(face_count, dtype=bool)
+    for first, last in (run for chart in charts if chart["fate"] == fate for run in chart["face_ranges"]):
+        chosen[first : last + 1] = True
+    return chosen
 
-    Without a report that has these charts, those without UV area are taken for left."""
+
+def aside(before, charts):
+    """Masks of the faces of charts that were left and that lie on others. `charts` are the report's, None where there is none:
+    then, and by reports of old programs, those without UV area are taken for left."""
+    if charts is not None and all("face_ranges" in chart for chart in charts):
+        return tuple(with_fate(charts, fate, before.faces) for fate in ASIDE)
     topology = Topology(before, as_meant=True)
-    sizes = np.bincount(topology.chart)
-    if charts is not None and [chart["faces"] for chart in charts] == sizes.tolist():
-        fates = np.array([chart.get("fate", "refined") for chart in charts])
-        return fates[topology.chart] == "left", fates[topology.chart] == "stacked"
     area = np.bincount(topology.chart, np.abs(face_areas(before, topology.next)))
     return (area == 0)[topology.chart], np.zeros(before.faces, dtype=bool)
+
+
+def lie_on(uvs, others, reach):
+    """Which of the points are within `reach` of one of the others in each coordinate, or but a little farther."""
+    cells = {tuple(cell) for cell in np.floor(others / reach).astype(np.int64).tolist()}
+    near = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1]), axis=-1).reshape(-1, 2)
+    own = np.floor(uvs / reach).astype(np.int64)
+    return np.array([any((x + dx, y + dy) in cells for dx, dy in near.tolist()) for x, y in own.tolist()], dtype=bool)
 
 
 def taking_part(before, after, sources, charts, found):
@@ -47,5 +60,10 @@ def taking_part(before, after, sources, charts, found):
         found["problems"].append("UVs: of charts that were left they differ")
     found.update(left=int(left.sum()), stacked=int(stacked.sum()))
     part = ~(left | stacked)
+    atlas, pile = (of_faces(after, of[sources]).corner_uv for of in (part, stacked))
+    if stacked.any():
+        astray = np.flatnonzero(~lie_on(pile, atlas, Topology.noise_of(after)))
+        if len(astray):
+            found["problems"].append(f"stacks: {len(astray)} corners lie on no corner of the atlas")
     number = np.cumsum(part) - 1
     return of_faces(before, part), of_faces(after, part[sources]), number[sources[part[sources]]]

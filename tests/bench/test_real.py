@@ -66,13 +66,25 @@ def test_faces_that_are_left_out_are_no_defect_but_must_stay(tmp_path):
 
 
 def test_what_the_report_says_was_left_is_not_checked(tmp_path):
-    charts = GOOD.count("g chart")
     overlapping = GOOD + "v 20 0 0\nv 21 0 0\nv 20 1 0\nvt 0.1 0.1\nvt 0.2 0.1\nvt 0.1 0.2\nf -3/-3 -2/-2 -1/-1\n"
     (tmp_path / "a.obj").write_text(overlapping)
-    fates = [{"faces": 9, "fate": "refined"}] * charts + [{"faces": 1, "fate": "left"}]
+    faces = overlapping.count("\nf ")
+    fates = [{"fate": "refined", "face_ranges": None}, {"fate": "left", "face_ranges": [[faces - 1, faces - 1]]}]
     assert check_atlas.check(tmp_path / "a.obj", tmp_path / "a.obj", charts=fates)["problems"] == []
-    fates[-1] = {"faces": 1, "fate": "refined"}
+    fates[-1]["fate"] = "refined"
     assert check_atlas.check(tmp_path / "a.obj", tmp_path / "a.obj", charts=fates)["problems"] != []
+
+
+def test_what_is_stacked_must_lie_on_the_atlas(tmp_path):
+    pile = GOOD + "".join(line + "\n" for line in GOOD.splitlines() if line.startswith("f "))
+    faces = GOOD.count("\nf ")
+    fates = [{"fate": "refined", "face_ranges": None}, {"fate": "stacked", "face_ranges": [[faces, 2 * faces - 1]]}]
+    (tmp_path / "a.obj").write_text(pile)
+    assert check_atlas.check(tmp_path / "a.obj", tmp_path / "a.obj", charts=fates)["problems"] == []
+    astray = pile + "vt 0.5 3\n" + f"f 1/{1 + GOOD.count('vt ')} 2/2 3/3\n"
+    fates[1]["face_ranges"] = [[faces, 2 * faces]]
+    (tmp_path / "a.obj").write_text(astray)
+    assert "1 corners lie on no" in check_atlas.check(tmp_path / "a.obj", tmp_path / "a.obj", charts=fates)["problems"][0]
 
 
 def test_homogeneous_positions(tmp_path):

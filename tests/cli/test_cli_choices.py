@@ -69,7 +69,9 @@ def test_stacks(program, tmp_path, stacks):
     points = uvs(result)
     half = len(points) // 2
     assert (points[:half] == points[half:]) == (stacks == "keep")
-    assert told["charts"][1]["fate"] == ("stacked" if stacks == "keep" else "refined")
+    first, second = told["charts"]
+    assert second["fate"] == ("stacked" if stacks == "keep" else "refined")
+    assert second["face_ranges"] == ([[first["faces"], 2 * first["faces"] - 1]] if stacks == "keep" else None)
 
 
 @pytest.mark.parametrize("collapsed", ["leave", "embed"])

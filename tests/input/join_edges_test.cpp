@@ -120,6 +120,21 @@ TEST(AsMeant, AFinDoesNotTearTheSheetItStandsOn) {
   EXPECT_EQ(chart_sizes(split_charts(atlas)), (Sizes{{2, 1}, {24, 1}}));
 }
 
+TEST(AsMeant, BoxesThatMeetAtAnEdgeInSpaceAndInTheUVsAreWholeEach) {
+  // Three sides of a box around its corner, and the same box turned by half around one of its edges.
+  Atlas atlas = flat_atlas({{0, 0, 0}, {0, 0, 1}}, {});
+  for (const double sign : {1.0, -1.0}) {
+    const int v = static_cast<int>(atlas.positions.size());
+    for (const Vec3& p : {Vec3(1, 0, 0), Vec3(1, 0, 1), Vec3(0, 1, 1), Vec3(0, 1, 0), Vec3(1, 1, 0)})
+      atlas.positions.emplace_back(sign * p.x(), sign * p.y(), p.z());
+    add_face(atlas, {0, v, v + 1, 1}, {{1, 0}, {2, 0}, {2, 1}, {1, 1}});
+    add_face(atlas, {0, 1, v + 2, v + 3}, {{1, 0}, {1, 1}, {0, 1}, {0, 0}});
+    add_face(atlas, {0, v + 3, v + 4, v}, {{1, 0}, {0, 0}, {0, -1}, {1, -1}});
+  }
+  EXPECT_EQ(chart_sizes(split_charts(atlas)), (Sizes{{3, 2}}));
+  EXPECT_EQ(chart_sizes(split_charts(unwelded(atlas))), (Sizes{{3, 2}}));
+}
+
 TEST(AsMeant, PagesOfABookAreChartsOfTheirOwn) {
   Atlas atlas = flat_atlas({{0, 0, 0}, {0, 1, 0}}, {});
   for (int page = 0; page < 5; ++page) {

@@ -54,6 +54,8 @@ def test_stacks(stacks):
     assert np.array_equal(first, second) == (stacks == "keep")
     assert {chart.fate for chart in result.charts} == ({"refined", "stacked"} if stacks == "keep" else {"refined"})
     assert [chart.stacked_on for chart in result.charts][1] == (0 if stacks == "keep" else -1)
+    assert np.bincount(result.face_charts).tolist() == [chart.faces for chart in result.charts]
+    assert set(result.face_charts[:16]) == {0}
 
 
 @pytest.mark.parametrize("collapsed", ["leave", "embed"])

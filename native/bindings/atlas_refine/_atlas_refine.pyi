@@ -251,6 +251,8 @@ class RefineResult:
     @property
     def charts(self) -> list[ChartReport]: ...  # one for each chart of the input, by their smallest face
     @property
+    def face_charts(self) -> NDArray[np.int32]: ...  # (F,) of the input: index into `charts`
+    @property
     def pieces(self) -> list[PieceReport]: ...  # one for each chart of the output; empty unless "cut"
     @property
     def rectangles(self) -> RectangleReport | None: ...  # only where the charts were cut

@@ -142,6 +142,7 @@ struct RefineResult {
   int iterations = 0;             ///< Newton iterations, all stages
   Ended ended = Ended::NotRun;
   std::vector<ChartReport> charts;  ///< one per chart of the input
+  std::vector<int> face_charts;     ///< one per face of the input: index into `charts`
   std::vector<PieceReport> pieces;  ///< one per chart of the output; empty unless Intervention::Cut
   std::optional<RectangleReport> rectangles;
   std::vector<GroupReport> groups;     ///< empty without RefineOptions::groups

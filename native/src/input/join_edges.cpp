@@ -116,7 +116,7 @@ EdgeJoins join_edges(const Atlas& atlas, Joining joining, const std::vector<int>
   UsePairs pairs(atlas, joining, joins);
   for_each_edge(uses,
                 [&](EdgeUses edge) { for_each_group(edge, joins.corner_faces, groups, [&](EdgeUses own) { pairs.join(own); }); });
-  pairs.join_within_charts();
+  pairs.join_ambiguous();
   orient_faces(atlas, joins);
   for_each_edge(uses, [&](EdgeUses edge) { count_seam(atlas, edge, joins); });
   return joins;

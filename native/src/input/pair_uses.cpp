@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "input/uv_noise.h"
-#include "support/disjoint_sets.h"
 
 namespace atlas_refine {
 
@@ -40,10 +39,11 @@ double uv_length(const Atlas& atlas, const EdgeUse& use) {
 }  // namespace
 
 UsePairs::UsePairs(const Atlas& atlas, Joining joining, EdgeJoins& joins)
-    : atlas_(atlas), joins_(joins), tolerance_(joining == Joining::Exact ? 0 : uv_noise(atlas)) {}
+    : atlas_(atlas), joins_(joins), tolerance_(joining == Joining::Exact ? 0 : uv_noise(atlas)), shells_(atlas.face_count()) {}
 
 void UsePairs::join(EdgeUses uses) {
   if (uses.size() < 2) return;
+  if (uses.size() == 2) shells_.unite(joins_.corner_faces[uses[0].corner], joins_.corner_faces[uses[1].corner]);
   for_each_range(
       uses, [](const EdgeUse& a, const EdgeUse& b) { return a.vertex_key() == b.vertex_key(); },
       [&](EdgeUses range) {
@@ -138,19 +138,25 @@ void UsePairs::join_sheets(const Group& left, const Group& right) {
   both.insert(both.end(), right.begin(), right.end());
 }
 
-void UsePairs::join_within_charts() {
-  DisjointSets charts(joins_.corner_faces.empty() ? 0 : joins_.corner_faces.back() + 1);
+void UsePairs::join_ambiguous() {
+  DisjointSets charts(atlas_.face_count());
   for (std::size_t c = 0; c < joins_.partners.size(); ++c) {
     if (joins_.partners[c] >= 0) charts.unite(joins_.corner_faces[c], joins_.corner_faces[joins_.partners[c]]);
   }
-  const auto chart = [&](const EdgeUse& use) { return charts.find(joins_.corner_faces[use.corner]); };
+  join_within(charts);
+  join_within(shells_);
+}
+
+/// Joins those of the ambiguous uses that are the only ones of their part at their edge, one on either side.
+void UsePairs::join_within(DisjointSets& parts) {
+  const auto part = [&](const EdgeUse& use) { return parts.find(joins_.corner_faces[use.corner]); };
   for (const Group& group : ambiguous_) {
     const Group open = unjoined(group);
     if (open.size() > kMostSheets) continue;
     const auto only_other = [&](const EdgeUse& use) {
       const EdgeUse* found = nullptr;
       for (const EdgeUse& other : open) {
-        if (!opposite(use, other) || chart(use) != chart(other)) continue;
+        if (!opposite(use, other) || part(use) != part(other)) continue;
         if (found) return static_cast<const EdgeUse*>(nullptr);
         found = &other;
       }

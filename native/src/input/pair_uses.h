@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "input/join_edges.h"
+#include "support/disjoint_sets.h"
 
 namespace atlas_refine {
 
@@ -14,8 +15,9 @@ class UsePairs {
 
   /// All uses of one edge in space.
   void join(EdgeUses uses);
-  /// Once all edges have been joined: the ambiguous ones, where one pair of the uses belongs to one chart already.
-  void join_within_charts();
+  /// Once all edges have been joined: the ambiguous ones, where one pair of the uses belongs to one chart already, or else to one
+  /// shell, which is what edges of two faces hold together in space.
+  void join_ambiguous();
 
  private:
   using Group = std::vector<EdgeUse>;
@@ -37,6 +39,7 @@ class UsePairs {
   void join_equal(EdgeUses uses);
   void join_sheets(const Group& left, const Group& right);
   void join_near(Group group);
+  void join_within(DisjointSets& parts);
   std::vector<Candidate> near_pairs(const Group& group) const;
   std::vector<int> layers(const Group& group) const;
   void unite(const EdgeUse& a, const EdgeUse& b, bool crosswise = false);
@@ -50,6 +53,7 @@ class UsePairs {
   EdgeJoins& joins_;
   double tolerance_;  // of UVs, 0 where they must be equal
   std::vector<Group> ambiguous_;
+  DisjointSets shells_;  // of faces
 };
 
 }  // namespace atlas_refine

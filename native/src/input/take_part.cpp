@@ -47,7 +47,7 @@ bool is_collapsed(const Chart& chart, double box_side) {
   double area = 0;
   for (const Triangle& t : chart.triangles)
     area += 0.5 * std::abs(doubled_area(chart.uvs[t[0]], chart.uvs[t[1]], chart.uvs[t[2]]));
-  return length <= kCollapsed * box_side || area <= kCollapsed * length * length;
+  return length <= kCollapsed * box_side || area <= kCollapsed * length * std::max(length, box_side);
 }
 
 Participants take_part(const ChartSet& set, const RefineOptions& options, const std::vector<char>& has_uvs) {

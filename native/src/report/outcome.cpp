@@ -78,6 +78,8 @@ void summarise(const InputAtlas& whole, const Participants& participants, const 
   result.before = combined(measures_of(done, &Outcome::before), areas);
   result.after = combined(measures_of(done, &Outcome::after), areas);
   result.charts = chart_reports(whole, participants, options, done);
+  for (int f = 0; f < whole.atlas.face_count(); ++f)
+    result.face_charts.push_back(whole.set.corners[whole.atlas.face_offsets[f]].chart);
   result.bound_met = true;
   for (std::size_t k = 0; k < done.size(); ++k) {
     const auto& [part, outcome] = done[k];
