@@ -143,7 +143,7 @@ std::vector<std::pair<int, int>> coupled_nodes(const ReduceModel& model, const R
   return pairs;
 }
 
-bool covers(const BlockLdlt& matrix, const ReduceModel& model, const ContactSet& contacts) {
+bool covers(const BlockCholesky& matrix, const ReduceModel& model, const ContactSet& contacts) {
   const auto has = [&](int a, int b) { return model.node[a] == model.node[b] || matrix.slot(model.node[a], model.node[b]) >= 0; };
   return matrix.node_count() > 0 && std::all_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
            const auto [point, start, end] = vertices_of(model.boundary, contact.pair);

@@ -26,10 +26,10 @@ double barrier(const ReduceModel& model, const ReduceState& state, const Contact
 /// Smallest distance beyond its floor of any contact, as a fraction of its range; at most 1.
 double least_slack(const ReduceModel& model, const ReduceState& state);
 
-/// The pairs of nodes that contacts and walls couple now or may soon, for BlockLdlt::analyse.
+/// The pairs of nodes that contacts and walls couple now or may soon, for BlockCholesky::analyse.
 std::vector<std::pair<int, int>> coupled_nodes(const ReduceModel& model, const ReduceState& state, const ContactSet& contacts);
 /// True where the matrix holds every pair of the contacts.
-bool covers(const BlockLdlt& matrix, const ReduceModel& model, const ContactSet& contacts);
+bool covers(const BlockCholesky& matrix, const ReduceModel& model, const ContactSet& contacts);
 
 /// Adds stiffness * barrier's gradient and projected Hessian.
 void add_contacts(const ReduceModel& model, const ReduceState& state, const ContactSet& contacts, double stiffness,

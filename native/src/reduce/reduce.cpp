@@ -103,20 +103,22 @@ double price_of_gain(const Task& task, const Iterate& at, const Schedule& schedu
 std::optional<Step> compute_step(const Task& task, const Iterate& at, Schedule& schedule, TriangleSlots& slots,
                                  BlockSystem& system) {
   assemble(task.model, at.state, schedule.stiffness, slots, system);
-  const auto damping =
-      factor_damped(system, task.model.masses, {schedule.damping, 10, task.bounded() ? kMostDamping : kMostDampingAlone});
+  const auto damping = factor_damped(
+      system, task.model.masses, {schedule.damping, 10, task.bounded() ? kMostDamping : kMostDampingAlone}, task.model.threads);
   if (!damping) return std::nullopt;
   schedule.damping = *damping;
-  Step step{.direction = newton_direction(system)};
+  Step step;
   if (task.bounded()) {
     const std::vector<Vec2> gradient = pe_gradient(task.model, at.state);
     std::vector<Vec2> climb = gradient;
-    system.matrix.solve(climb);
+    step.direction = newton_direction(system, climb);
     const double own_gain = dot(gradient, step.direction), gain_per_price = dot(gradient, climb);
     step.price = price_of_gain(task, at, schedule, own_gain, gain_per_price);
     step.predicted_gain = own_gain + step.price * gain_per_price;
     for (std::size_t i = 0; i < climb.size(); ++i) step.direction[i] += step.price * climb[i];
     step.slope = -step.price * dot(gradient, step.direction);
+  } else {
+    step.direction = newton_direction(system);
   }
   step.slope += dot(system.gradient, step.direction);
   spread(task.model, step.direction);

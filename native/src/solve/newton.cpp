@@ -44,7 +44,7 @@ std::vector<std::pair<int, int>> triangle_sides(const std::vector<Triangle>& tri
   return sides;
 }
 
-TriangleSlots triangle_slots(const BlockLdlt& matrix, const std::vector<Triangle>& triangles) {
+TriangleSlots triangle_slots(const BlockCholesky& matrix, const std::vector<Triangle>& triangles) {
   TriangleSlots slots;
   for (const Triangle& t : triangles)
     slots.push_back({matrix.slot(t[0], t[1]), matrix.slot(t[1], t[2]), matrix.slot(t[2], t[0])});
@@ -89,10 +89,10 @@ void add_dirichlet(const Objective& objective, const std::vector<Triangle>& tria
   }
 }
 
-std::optional<double> factor_damped(BlockSystem& system, const std::vector<double>& masses, const Damping& damping) {
+std::optional<double> factor_damped(BlockSystem& system, const std::vector<double>& masses, const Damping& damping, int threads) {
   double total = damping.value;
   damp(system, masses, total);
-  for (double extra = total; !system.matrix.factor(); extra *= damping.growth) {
+  for (double extra = total; !system.matrix.factor(threads); extra *= damping.growth) {
     if (total + extra > damping.most) return std::nullopt;
     damp(system, masses, extra);
     total += extra;
@@ -103,6 +103,13 @@ std::optional<double> factor_damped(BlockSystem& system, const std::vector<doubl
 std::vector<Vec2> newton_direction(const BlockSystem& system) {
   std::vector<Vec2> step = system.gradient;
   system.matrix.solve(step);
+  for (Vec2& s : step) s = -s;
+  return step;
+}
+
+std::vector<Vec2> newton_direction(const BlockSystem& system, std::vector<Vec2>& other) {
+  std::vector<Vec2> step = system.gradient;
+  system.matrix.solve(step, other);
   for (Vec2& s : step) s = -s;
   return step;
 }

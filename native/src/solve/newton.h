@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "geometry/chart.h"
-#include "solve/block_ldlt.h"
+#include "solve/block_cholesky.h"
 #include "solve/objective.h"
 
 namespace atlas_refine {
 
 /// Gradient and Hessian of one iteration, two unknowns a node.
 struct BlockSystem {
-  BlockLdlt matrix;
+  BlockCholesky matrix;
   std::vector<Vec2> gradient;
 
   void set_zero();
@@ -23,9 +23,9 @@ struct BlockSystem {
 /// Where each triangle's sides (0,1), (1,2), (2,0) lie in the matrix.
 using TriangleSlots = std::vector<std::array<int, 3>>;
 
-/// The pairs of nodes that triangles couple, for BlockLdlt::analyse.
+/// The pairs of nodes that triangles couple, for BlockCholesky::analyse.
 std::vector<std::pair<int, int>> triangle_sides(const std::vector<Triangle>& triangles);
-TriangleSlots triangle_slots(const BlockLdlt& matrix, const std::vector<Triangle>& triangles);
+TriangleSlots triangle_slots(const BlockCholesky& matrix, const std::vector<Triangle>& triangles);
 
 /// Sum of weight * energy; infinite with a flip.
 double dirichlet_energy(const Objective& objective, const std::vector<Triangle>& triangles, const std::vector<Vec2>& x);
@@ -43,10 +43,13 @@ struct Damping {
   double most;
 };
 /// Factors the matrix; the damping that it took, or nothing where `most` was not enough.
-std::optional<double> factor_damped(BlockSystem& system, const std::vector<double>& masses, const Damping& damping);
+std::optional<double> factor_damped(BlockSystem& system, const std::vector<double>& masses, const Damping& damping,
+                                    int threads = 1);
 
 /// -H^-1 gradient. The matrix must have been factored.
 std::vector<Vec2> newton_direction(const BlockSystem& system);
+/// The same, and H^-1 `other` in its place.
+std::vector<Vec2> newton_direction(const BlockSystem& system, std::vector<Vec2>& other);
 
 double dot(const std::vector<Vec2>& a, const std::vector<Vec2>& b);
 

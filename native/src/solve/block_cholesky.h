@@ -1,19 +1,20 @@
-// LDL^T of a sparse symmetric positive definite matrix of 2x2 blocks, one block row per UV vertex.
+// Cholesky factor of a sparse symmetric positive definite matrix of 2x2 blocks, one block row per UV vertex.
 #pragma once
 
 #include <utility>
 #include <vector>
 
 #include "geometry/chart.h"
+#include "solve/multifrontal.h"
 
 namespace atlas_refine {
 
-/// Fill-reducing order by approximate minimum degree on the vertex graph, then an up-looking factorisation on blocks.
 /// Analyse once per pattern; assign `diagonal` and `off_diagonal`, factor and solve as often as values change.
-class BlockLdlt {
+class BlockCholesky {
  public:
   /// `edges` are pairs of distinct nodes in any order, duplicates allowed. `last_node` (or -1) is eliminated last: a node that is
-  /// coupled to a large part of the others would only disturb the ordering.
+  /// coupled to a large part of the others would only disturb the ordering. Analysing a similar pattern anew keeps the order
+  /// for as long as that is cheaper than finding a better one.
   void analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node = -1);
 
   /// Index into `off_diagonal` of the block (min(i, j), max(i, j)), -1 where the pattern has none.
@@ -29,40 +30,27 @@ class BlockLdlt {
 
   void set_zero();
 
-  /// False where a pivot is not positive definite; the factor is then unusable.
-  bool factor();
+  /// False where a pivot is not positive; the factor is then unusable. The bits do not depend on the number of threads.
+  bool factor(int threads = 1);
 
   /// Solves in place, 2 values per node.
   void solve(std::vector<Vec2>& values) const;
+  /// For two right-hand sides at once, which takes little longer than for one.
+  void solve(std::vector<Vec2>& first, std::vector<Vec2>& second) const;
 
  private:
-  struct Entry {  // a block of the permuted upper triangle, in column order
-    int row;
-    int slot;
-    bool transposed;
-  };
-  std::vector<int> minimum_degree_order(int last_node) const;
-  void permute_pattern();
-  void analyse_elimination_tree();
+  void set_pattern(int node_count, const std::vector<std::pair<int, int>>& edges);
+  std::vector<int> minimum_degree_order() const;
 
   // Pattern of the matrix, rows of smaller nodes.
   std::vector<int> row_start_;
   std::vector<int> row_nodes_;
-  // Permutation: order_[k] is the node eliminated as k-th; rank_ is its inverse.
+  // The order that is kept, the work of a factorisation when it was found, and what it has cost beyond that since.
   std::vector<int> order_;
-  std::vector<int> rank_;
-  std::vector<int> column_start_;
-  std::vector<Entry> entries_;
-  std::vector<int> parent_;
-  // Factor: unit lower triangle by columns.
-  std::vector<int> factor_start_;
-  std::vector<int> factor_rows_;
-  std::vector<Mat2> factor_values_;
-  std::vector<Mat2> inverse_pivots_;
-  std::vector<int> factor_fill_;
-  std::vector<Mat2> work_;
-  std::vector<int> flag_;
-  std::vector<int> reach_;
+  int last_node_ = -1;
+  double work_when_found_ = 0;
+  double lost_work_ = 0;
+  Multifrontal factor_;
 };
 
 }  // namespace atlas_refine

@@ -1,0 +1,141 @@
+// The pattern, its order, and when to look for a new one.
+#include "solve/block_cholesky.h"
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <array>
+
+namespace atlas_refine {
+namespace {
+
+// What finding an order costs, in multiplications of blocks, per entry of the pattern.
+constexpr double kOrderWork = 500;
+
+/// Both triangles of a pattern, and where the blocks of its upper one lie.
+struct BothTriangles {
+  Adjacency graph;
+  std::vector<int> slots;
+};
+
+BothTriangles both_triangles(const std::vector<int>& row_start, const std::vector<int>& row_nodes) {
+  const int n = static_cast<int>(row_start.size()) - 1;
+  BothTriangles out;
+  std::vector<int>& start = out.graph.start;
+  start.assign(n + 1, 0);
+  for (int i = 0; i < n; ++i) {
+    start[i + 1] += row_start[i + 1] - row_start[i];
+    for (int k = row_start[i]; k < row_start[i + 1]; ++k) ++start[row_nodes[k] + 1];
+  }
+  for (int i = 0; i < n; ++i) start[i + 1] += start[i];
+  out.graph.nodes.resize(start[n]);
+  out.slots.resize(start[n]);
+  std::vector<int> next(start.begin(), start.end() - 1);
+  const auto add = [&](int i, int j, int slot) {
+    out.slots[next[i]] = slot;
+    out.graph.nodes[next[i]++] = j;
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int k = row_start[i]; k < row_start[i + 1]; ++k) {
+      add(i, row_nodes[k], k);
+      add(row_nodes[k], i, k);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+void BlockCholesky::analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node) {
+  set_pattern(node_count, edges);
+  const BothTriangles both = both_triangles(row_start_, row_nodes_);
+  const bool same_nodes = static_cast<int>(order_.size()) == node_count && last_node_ == last_node;
+  last_node_ = last_node;
+  if (same_nodes) {
+    factor_.analyse(both.graph, both.slots, order_);
+    lost_work_ += factor_.work() - work_when_found_;
+    if (lost_work_ <= kOrderWork * (node_count + static_cast<double>(row_nodes_.size()))) return;
+  }
+  order_ = minimum_degree_order();
+  factor_.analyse(both.graph, both.slots, order_);
+  work_when_found_ = factor_.work();
+  lost_work_ = 0;
+}
+
+void BlockCholesky::set_pattern(int node_count, const std::vector<std::pair<int, int>>& edges) {
+  // Bucket by the smaller node, then sort and thin out each short row.
+  std::vector<int> start(node_count + 1, 0);
+  for (const auto& [i, j] : edges) ++start[std::min(i, j) + 1];
+  for (int i = 0; i < node_count; ++i) start[i + 1] += start[i];
+  std::vector<int> fill(start.begin(), start.end() - 1);
+  row_nodes_.resize(edges.size());
+  for (const auto& [i, j] : edges) row_nodes_[fill[std::min(i, j)]++] = std::max(i, j);
+  row_start_.assign(node_count + 1, 0);
+  int kept = 0;
+  for (int i = 0; i < node_count; ++i) {
+    const auto first = row_nodes_.begin() + start[i], last = row_nodes_.begin() + start[i + 1];
+    std::sort(first, last);
+    for (auto it = first; it != last; ++it) {
+      if (it == first || *it != *(it - 1)) row_nodes_[kept++] = *it;
+    }
+    row_start_[i + 1] = kept;
+  }
+  row_nodes_.resize(kept);
+  diagonal.assign(node_count, Mat2::Zero());
+  off_diagonal.assign(kept, Mat2::Zero());
+}
+
+int BlockCholesky::slot(int i, int j) const {
+  if (i > j) std::swap(i, j);
+  const auto first = row_nodes_.begin() + row_start_[i];
+  const auto last = row_nodes_.begin() + row_start_[i + 1];
+  const auto found = std::lower_bound(first, last, j);
+  return found != last && *found == j ? static_cast<int>(found - row_nodes_.begin()) : -1;
+}
+
+void BlockCholesky::add(int i, int j, const Mat2& block) {
+  if (i == j)
+    diagonal[i] += block;
+  else if (i < j)
+    off_diagonal[slot(i, j)] += block;
+}
+
+void BlockCholesky::set_zero() {
+  std::fill(diagonal.begin(), diagonal.end(), Mat2::Zero());
+  std::fill(off_diagonal.begin(), off_diagonal.end(), Mat2::Zero());
+}
+
+std::vector<int> BlockCholesky::minimum_degree_order() const {
+  const int n = node_count();
+  // One triangle and the diagonal, which the ordering expects, without the last node's couplings, as compressed columns.
+  std::vector<int> starts(n + 1, 0), rows;
+  rows.reserve(row_nodes_.size() + n);
+  for (int i = 0; i < n; ++i) {
+    rows.push_back(i);
+    for (int k = row_start_[i]; i != last_node_ && k < row_start_[i + 1]; ++k) {
+      if (row_nodes_[k] != last_node_) rows.push_back(row_nodes_[k]);
+    }
+    starts[i + 1] = static_cast<int>(rows.size());
+  }
+  const std::vector<char> ones(rows.size(), 1);
+  const Eigen::SparseMatrix<char> graph = Eigen::Map<const Eigen::SparseMatrix<char>>(
+      n, n, static_cast<Eigen::Index>(rows.size()), starts.data(), rows.data(), ones.data());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
+  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), permutation);
+  std::vector<int> order(permutation.indices().data(), permutation.indices().data() + n);
+  if (last_node_ >= 0) {
+    order.erase(std::find(order.begin(), order.end(), last_node_));
+    order.push_back(last_node_);
+  }
+  return order;
+}
+
+bool BlockCholesky::factor(int threads) { return factor_.factor({diagonal, off_diagonal}, threads); }
+
+void BlockCholesky::solve(std::vector<Vec2>& values) const { factor_.solve(std::array{&values}); }
+
+void BlockCholesky::solve(std::vector<Vec2>& first, std::vector<Vec2>& second) const {
+  factor_.solve(std::array{&first, &second});
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,329 @@
+// Panels in chunks of columns, rows in tiles of eight. Sections of the code that depend on the registers are templates over their
+// width, instantiated once for each instruction set.
+#include "solve/dense_front.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#define ATLAS_REFINE_INLINE inline __attribute__((always_inline))
+
+namespace atlas_refine {
+namespace {
+
+constexpr int kTile = 8;     // rows of a tile, most columns of a block
+constexpr int kChunk = 128;  // most columns that are packed at a time
+
+template <int Lanes>
+struct Register {
+  typedef double Type __attribute__((vector_size(8 * Lanes)));
+};
+
+template <class Type>
+ATLAS_REFINE_INLINE void load(Type& value, const double* from) {
+  __builtin_memcpy(&value, from, sizeof(Type));
+}
+template <class Type>
+ATLAS_REFINE_INLINE void store(const Type& value, double* to) {
+  __builtin_memcpy(to, &value, sizeof(Type));
+}
+
+/// sums[c] -= sum over k < depth of rows[k][.] * columns[k][c]; both are packed, a tile's width a step.
+template <int Lanes, int Columns>
+ATLAS_REFINE_INLINE void subtract_products(typename Register<Lanes>::Type (&sums)[Columns], const double* rows,
+                                           const double* columns, int depth) {
+  for (int k = 0; k < depth; ++k, rows += kTile, columns += kTile) {
+    typename Register<Lanes>::Type row;
+    load(row, rows);
+#pragma GCC unroll 8
+    for (int c = 0; c < Columns; ++c) sums[c] -= row * columns[c];
+  }
+}
+
+/// Where a tile's products go: `to` by columns `stride` apart.
+struct Target {
+  double* to;
+  int stride;
+  int height;  ///< rows that count, even
+};
+
+/// target -= rows * columns^T, or -rows * columns^T where it is `Fresh`.
+template <int Lanes, int Columns, bool Fresh>
+ATLAS_REFINE_INLINE void product_tile(const double* rows, const double* columns, int depth, const Target& target, int from = 0) {
+  int row = from;
+  for (; row + Lanes <= target.height; row += Lanes) {
+    typename Register<Lanes>::Type sums[Columns] = {};
+    if constexpr (!Fresh) {
+#pragma GCC unroll 8
+      for (int c = 0; c < Columns; ++c) load(sums[c], target.to + row + static_cast<long>(c) * target.stride);
+    }
+    subtract_products<Lanes, Columns>(sums, rows + row, columns, depth);
+#pragma GCC unroll 8
+    for (int c = 0; c < Columns; ++c) store(sums[c], target.to + row + static_cast<long>(c) * target.stride);
+  }
+  if constexpr (Lanes > 2) product_tile<Lanes / 2, Columns, Fresh>(rows, columns, depth, target, row);
+}
+
+/// A block of columns whose diagonal part is factored: `diagonal` by columns `stride` apart, and its packed rows.
+struct Block {
+  const double* diagonal;
+  const double* packed;
+  int depth;  ///< columns of the chunk before it
+};
+
+/// Finishes the rows of a tile in a block of columns: products with the columns before, then the triangle. Also packs them.
+template <int Lanes, int Columns>
+ATLAS_REFINE_INLINE void solve_tile(double* packed, const Block& block, const Target& target, int from = 0) {
+  int row = from;
+  for (; row + Lanes <= target.height; row += Lanes) {
+    typename Register<Lanes>::Type sums[Columns];
+#pragma GCC unroll 8
+    for (int c = 0; c < Columns; ++c) load(sums[c], target.to + row + static_cast<long>(c) * target.stride);
+    subtract_products<Lanes, Columns>(sums, packed + row, block.packed, block.depth);
+#pragma GCC unroll 8
+    for (int c = 0; c < Columns; ++c) {
+      const double* column = block.diagonal + static_cast<long>(c) * target.stride;
+      sums[c] *= column[c];
+#pragma GCC unroll 8
+      for (int d = c + 1; d < Columns; ++d) sums[d] -= sums[c] * column[d];
+      store(sums[c], target.to + row + static_cast<long>(c) * target.stride);
+      store(sums[c], packed + row + (block.depth + c) * kTile);
+    }
+  }
+  if constexpr (Lanes > 2) solve_tile<Lanes / 2, Columns>(packed, block, target, row);
+}
+
+/// Cholesky factor of a small block, the inverse on its diagonal.
+ATLAS_REFINE_INLINE bool factor_block(double* block, int stride, int size) {
+  for (int k = 0; k < size; ++k) {
+    double* column = block + static_cast<long>(k) * stride;
+    const double pivot = column[k];
+    if (!(pivot > 0) || !std::isfinite(pivot)) return false;
+    column[k] = 1 / std::sqrt(pivot);
+    for (int i = k + 1; i < size; ++i) column[i] *= column[k];
+    for (int j = k + 1; j < size; ++j) {
+      double* other = block + static_cast<long>(j) * stride;
+      for (int i = j; i < size; ++i) other[i] -= column[j] * column[i];
+    }
+  }
+  return true;
+}
+
+/// Calls body with the number of columns as a constant: even, up to a tile.
+template <class Body>
+ATLAS_REFINE_INLINE void with_columns(int columns, Body&& body) {
+  switch (columns) {
+    case 2:
+      return body(std::integral_constant<int, 2>());
+    case 4:
+      return body(std::integral_constant<int, 4>());
+    case 6:
+      return body(std::integral_constant<int, 6>());
+    default:
+      return body(std::integral_constant<int, 8>());
+  }
+}
+
+/// The chunk of columns [begin, end), whose first block has `first` columns, with room for its rows, packed tile by tile from the
+/// row after the first block on.
+struct Chunk {
+  int begin, end, first;
+  double* packed;
+
+  int packed_row() const { return begin + first; }
+  double* tile(int row) const { return packed + static_cast<long>(row - packed_row()) * kChunk; }
+  int depth() const { return end - begin; }
+};
+
+template <int Lanes>
+ATLAS_REFINE_INLINE bool factor_chunk(const Front& front, const Chunk& chunk) {
+  const int stride = front.rows;
+  int columns = chunk.first;
+  for (int begin = chunk.begin; begin < chunk.end; begin += columns, columns = kTile) {
+    if (begin > chunk.begin) columns = kTile;
+    double* diagonal = front.panel + begin + static_cast<long>(begin) * stride;
+    const Block block{diagonal, begin > chunk.begin ? chunk.tile(begin) : nullptr, begin - chunk.begin};
+    if (block.depth > 0) product_tile<Lanes, kTile, false>(block.packed, block.packed, block.depth, {diagonal, stride, kTile});
+    if (!factor_block(diagonal, stride, columns)) return false;
+    with_columns(
+        columns, [&](auto constant) __attribute__((always_inline)) {
+          for (int row = begin + columns; row < front.rows; row += kTile) {
+            const Target target{front.panel + row + static_cast<long>(begin) * stride, stride, std::min(kTile, front.rows - row)};
+            solve_tile<Lanes, constant.value>(chunk.tile(row), block, target);
+          }
+        });
+  }
+  return true;
+}
+
+/// Subtracts the chunk's products from the columns of the panel that come after it.
+template <int Lanes>
+ATLAS_REFINE_INLINE void update_panel(const Front& front, const Chunk& chunk) {
+  for (int column = chunk.end; column < front.pivots; column += kTile) {
+    for (int row = column; row < front.rows; row += kTile) {
+      const Target target{front.panel + row + static_cast<long>(column) * front.rows, front.rows,
+                          std::min(kTile, front.rows - row)};
+      product_tile<Lanes, kTile, false>(chunk.tile(row), chunk.tile(column), chunk.depth(), target);
+    }
+  }
+}
+
+template <int Lanes, bool Fresh>
+ATLAS_REFINE_INLINE void update_below(const Front& front, const Chunk& chunk, double* update) {
+  const int stride = front.below();
+  for (int column = front.pivots; column < front.rows; column += kTile) {
+    with_columns(
+        std::min(kTile, front.rows - column), [&](auto constant) __attribute__((always_inline)) {
+          double* to = update + static_cast<long>(column - front.pivots) * stride;
+          for (int row = column; row < front.rows; row += kTile) {
+            const Target target{to + row - front.pivots, stride, std::min(kTile, front.rows - row)};
+            product_tile<Lanes, constant.value, Fresh>(chunk.tile(row), chunk.tile(column), chunk.depth(), target);
+          }
+        });
+  }
+}
+
+template <int Lanes>
+ATLAS_REFINE_INLINE bool factor_with(const Front& front, double* update, double* packed) {
+  // The first block takes what is over, so that tiles of rows end where the pivots do.
+  int first = front.pivots % kTile == 0 ? kTile : front.pivots % kTile;
+  for (int begin = 0; begin < front.pivots; first = kTile) {
+    const Chunk chunk{begin, std::min(front.pivots, begin + first + kChunk - kTile), first, packed};
+    if (!factor_chunk<Lanes>(front, chunk)) return false;
+    update_panel<Lanes>(front, chunk);
+    if (begin == 0)
+      update_below<Lanes, true>(front, chunk, update);
+    else
+      update_below<Lanes, false>(front, chunk, update);
+    begin = chunk.end;
+  }
+  return true;
+}
+
+/// to[.] -= the columns * factors, summed in the order of the columns.
+template <int Lanes, int Columns>
+ATLAS_REFINE_INLINE void subtract_columns(const double* columns, int stride, int height, const double* factors, double* to,
+                                          int from = 0) {
+  int row = from;
+  for (; row + Lanes <= height; row += Lanes) {
+    typename Register<Lanes>::Type sum, column;
+    load(sum, to + row);
+#pragma GCC unroll 4
+    for (int c = 0; c < Columns; ++c) {
+      load(column, columns + row + static_cast<long>(c) * stride);
+      sum -= column * factors[c];
+    }
+    store(sum, to + row);
+  }
+  if constexpr (Lanes > 2) subtract_columns<Lanes / 2, Columns>(columns, stride, height, factors, to, row);
+}
+
+/// Dot products of columns with `values`: four sums each, whatever the registers.
+template <int Columns>
+ATLAS_REFINE_INLINE void dot_columns(const double* columns, int stride, int height, const double* values, double* dots) {
+  constexpr int kSums = 4;
+  Register<kSums>::Type sums[Columns] = {};
+  int row = 0;
+  for (; row + kSums <= height; row += kSums) {
+    Register<kSums>::Type value, column;
+    load(value, values + row);
+#pragma GCC unroll 4
+    for (int c = 0; c < Columns; ++c) {
+      load(column, columns + row + static_cast<long>(c) * stride);
+      sums[c] += column * value;
+    }
+  }
+  for (int c = 0; c < Columns; ++c) {
+    double rest = 0;
+    for (int k = row; k < height; ++k) rest += columns[k + static_cast<long>(c) * stride] * values[k];
+    dots[c] = (sums[c][0] + sums[c][1]) + (sums[c][2] + sums[c][3]) + rest;
+  }
+}
+
+/// Columns [begin, begin + Columns) of L^-1 on one side.
+template <int Lanes, int Columns>
+ATLAS_REFINE_INLINE void forward_columns(const Front& front, int begin, const FrontSide& side) {
+  const double* columns = front.panel + static_cast<long>(begin) * front.rows;
+  double* x = side.at_pivots + begin;
+  for (int c = 0; c < Columns; ++c) {
+    const double* column = columns + begin + static_cast<long>(c) * front.rows;
+    x[c] *= column[c];
+    for (int d = c + 1; d < Columns; ++d) x[d] -= column[d] * x[c];
+  }
+  const int end = begin + Columns;
+  subtract_columns<Lanes, Columns>(columns + end, front.rows, front.pivots - end, x, x + Columns);
+  subtract_columns<Lanes, Columns>(columns + front.pivots, front.rows, front.below(), x, side.below);
+}
+
+template <int Columns>
+ATLAS_REFINE_INLINE void backward_columns(const Front& front, int begin, const FrontSide& side) {
+  const double* columns = front.panel + static_cast<long>(begin) * front.rows;
+  double* x = side.at_pivots + begin;
+  const int end = begin + Columns;
+  double inner[Columns], below[Columns];
+  dot_columns<Columns>(columns + end, front.rows, front.pivots - end, x + Columns, inner);
+  dot_columns<Columns>(columns + front.pivots, front.rows, front.below(), side.below, below);
+  for (int c = Columns - 1; c >= 0; --c) {
+    const double* column = columns + begin + static_cast<long>(c) * front.rows;
+    double sum = x[c] - inner[c] - below[c];
+    for (int d = c + 1; d < Columns; ++d) sum -= column[d] * x[d];
+    x[c] = sum * column[c];
+  }
+}
+
+template <int Lanes>
+ATLAS_REFINE_INLINE void forward_with(const Front& front, std::span<const FrontSide> sides) {
+  int begin = 0;
+  for (; begin + 4 <= front.pivots; begin += 4) {
+    for (const FrontSide& side : sides) forward_columns<Lanes, 4>(front, begin, side);
+  }
+  if (begin == front.pivots) return;
+  for (const FrontSide& side : sides) forward_columns<Lanes, 2>(front, begin, side);
+}
+
+ATLAS_REFINE_INLINE void backward_with(const Front& front, std::span<const FrontSide> sides) {
+  int begin = front.pivots / 4 * 4;
+  if (begin < front.pivots) {
+    for (const FrontSide& side : sides) backward_columns<2>(front, begin, side);
+  }
+  for (begin -= 4; begin >= 0; begin -= 4) {
+    for (const FrontSide& side : sides) backward_columns<4>(front, begin, side);
+  }
+}
+
+// The same code for one set of instructions.
+#define ATLAS_REFINE_KERNELS(name, lanes, target)                                                                         \
+  target bool factor_##name(const Front& front, double* update, double* packed) {                                         \
+    return factor_with<lanes>(front, update, packed);                                                                     \
+  }                                                                                                                       \
+  target void forward_##name(const Front& front, std::span<const FrontSide> sides) { forward_with<lanes>(front, sides); } \
+  target void backward_##name(const Front& front, std::span<const FrontSide> sides) { backward_with(front, sides); }      \
+  constexpr FrontKernels k_##name{#name, factor_##name, forward_##name, backward_##name};
+
+ATLAS_REFINE_KERNELS(baseline, 2, )
+#ifdef __x86_64__
+ATLAS_REFINE_KERNELS(avx2, 4, __attribute__((target("avx2"))))
+ATLAS_REFINE_KERNELS(avx512, 8, __attribute__((target("avx512f"))))
+#endif
+
+}  // namespace
+
+std::vector<FrontKernels> supported_kernels() {
+  std::vector<FrontKernels> out = {k_baseline};
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2")) out.push_back(k_avx2);
+  if (__builtin_cpu_supports("avx512f")) out.push_back(k_avx512);
+#endif
+  return out;
+}
+
+const FrontKernels& best_kernels() {
+  static const FrontKernels best = supported_kernels().back();
+  return best;
+}
+
+std::size_t packed_size(const Front& front) {
+  return (static_cast<std::size_t>(front.rows) + 2 * kTile) / kTile * kTile * kChunk;
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,37 @@
+// What a sparse Cholesky factor looks like, from the pattern and an elimination order alone: the tree of relaxed supernodes.
+#pragma once
+
+#include <vector>
+
+namespace atlas_refine {
+
+/// A symmetric pattern as adjacency: neighbours of node i are nodes[start[i]] to nodes[start[i + 1] - 1], without i itself.
+struct Adjacency {
+  std::vector<int> start;
+  std::vector<int> nodes;
+
+  int size() const { return static_cast<int>(start.size()) - 1; }
+};
+
+/// Consecutive columns that are factored as one dense front, children before their parents. Positions count nodes in the order in
+/// which they are eliminated.
+struct Supernodes {
+  std::vector<int> order;     ///< node at each position
+  std::vector<int> position;  ///< of each node
+  std::vector<int> first;     ///< position of each supernode's first column; then the number of nodes
+  std::vector<int> parent;    ///< -1 for roots
+  std::vector<int> child_start, children;
+  std::vector<int> row_start;      ///< of each supernode in `rows`
+  std::vector<int> rows;           ///< positions of the rows below the pivots, ascending
+  std::vector<int> row_in_parent;  ///< where each of these lies in the parent's front, its pivots first
+
+  int count() const { return static_cast<int>(parent.size()); }
+  int pivots(int s) const { return first[s + 1] - first[s]; }
+  int below(int s) const { return row_start[s + 1] - row_start[s]; }
+  /// Multiplications of a supernode's front, in blocks.
+  double work(int s) const;
+};
+
+Supernodes find_supernodes(const Adjacency& graph, const std::vector<int>& order);
+
+}  // namespace atlas_refine
