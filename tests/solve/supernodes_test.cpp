@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <set>
 
 #include "support/rng.h"
@@ -49,11 +48,7 @@ TEST(Supernodes, HoldWhatEliminationFills) {
   for (const int n : {1, 2, 30, 200}) {
     for (const int density : {0, 1, 3}) {
       const Adjacency graph = random_graph(n, density * n, n + density);
-      std::vector<int> order(n);
-      std::iota(order.begin(), order.end(), 0);
-      Rng rng(7);
-      for (int k = n - 1; k > 0; --k) std::swap(order[k], order[rng.below(k + 1)]);
-      const Supernodes tree = find_supernodes(graph, order);
+      const Supernodes tree = find_supernodes(graph);
       const std::vector<std::set<int>> columns = eliminate(graph, tree);
       ASSERT_EQ(tree.first.back(), n);
       for (int s = 0; s < tree.count(); ++s) {
@@ -69,9 +64,7 @@ TEST(Supernodes, HoldWhatEliminationFills) {
 
 TEST(Supernodes, ChildrenComeFirstAndTheirRowsLieInTheParent) {
   const Adjacency graph = random_graph(300, 600, 3);
-  std::vector<int> order(300);
-  std::iota(order.begin(), order.end(), 0);
-  const Supernodes tree = find_supernodes(graph, order);
+  const Supernodes tree = find_supernodes(graph);
   for (int s = 0; s < tree.count(); ++s) {
     const int p = tree.parent[s];
     if (p < 0) {

@@ -12,20 +12,22 @@ namespace {
 // What finding an order costs, in multiplications of blocks, per entry of the pattern.
 constexpr double kOrderWork = 500;
 
-/// Both triangles of a pattern, and where the blocks of its upper one lie.
-struct BothTriangles {
+/// Both triangles of a pattern with its nodes renumbered, and where the blocks lie: as Multifrontal::analyse takes them.
+struct Renumbered {
   Adjacency graph;
   std::vector<int> slots;
 };
 
-BothTriangles both_triangles(const std::vector<int>& row_start, const std::vector<int>& row_nodes) {
-  const int n = static_cast<int>(row_start.size()) - 1;
-  BothTriangles out;
+Renumbered renumber(const std::vector<int>& row_start, const std::vector<int>& row_nodes, const std::vector<int>& order) {
+  const int n = static_cast<int>(order.size());
+  std::vector<int> column(n);
+  for (int k = 0; k < n; ++k) column[order[k]] = k;
+  Renumbered out;
   std::vector<int>& start = out.graph.start;
   start.assign(n + 1, 0);
   for (int i = 0; i < n; ++i) {
-    start[i + 1] += row_start[i + 1] - row_start[i];
-    for (int k = row_start[i]; k < row_start[i + 1]; ++k) ++start[row_nodes[k] + 1];
+    start[column[i] + 1] += row_start[i + 1] - row_start[i];
+    for (int k = row_start[i]; k < row_start[i + 1]; ++k) ++start[column[row_nodes[k]] + 1];
   }
   for (int i = 0; i < n; ++i) start[i + 1] += start[i];
   out.graph.nodes.resize(start[n]);
@@ -37,8 +39,8 @@ BothTriangles both_triangles(const std::vector<int>& row_start, const std::vecto
   };
   for (int i = 0; i < n; ++i) {
     for (int k = row_start[i]; k < row_start[i + 1]; ++k) {
-      add(i, row_nodes[k], k);
-      add(row_nodes[k], i, k);
+      add(column[i], column[row_nodes[k]], ~k);
+      add(column[row_nodes[k]], column[i], k);
     }
   }
   return out;
@@ -48,18 +50,23 @@ BothTriangles both_triangles(const std::vector<int>& row_start, const std::vecto
 
 void BlockCholesky::analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node) {
   set_pattern(node_count, edges);
-  const BothTriangles both = both_triangles(row_start_, row_nodes_);
   const bool same_nodes = static_cast<int>(order_.size()) == node_count && last_node_ == last_node;
   last_node_ = last_node;
   if (same_nodes) {
-    factor_.analyse(both.graph, both.slots, order_);
+    analyse_factor();
     lost_work_ += factor_.work() - work_when_found_;
     if (lost_work_ <= kOrderWork * (node_count + static_cast<double>(row_nodes_.size()))) return;
   }
   order_ = minimum_degree_order();
-  factor_.analyse(both.graph, both.slots, order_);
+  analyse_factor();
   work_when_found_ = factor_.work();
   lost_work_ = 0;
+}
+
+void BlockCholesky::analyse_factor() {
+  const auto [graph, slots] = renumber(row_start_, row_nodes_, order_);
+  factor_.analyse(graph, slots, order_);
+  order_ = factor_.order();  // what is near in the tree is then near in memory
 }
 
 void BlockCholesky::set_pattern(int node_count, const std::vector<std::pair<int, int>>& edges) {

@@ -39,6 +39,7 @@ class BlockCholesky {
   void solve(std::vector<Vec2>& first, std::vector<Vec2>& second) const;
 
  private:
+  void analyse_factor();
   void set_pattern(int node_count, const std::vector<std::pair<int, int>>& edges);
   std::vector<int> minimum_degree_order() const;
 

@@ -12,25 +12,27 @@ namespace {
 constexpr int kTasksPerThread = 6;
 constexpr double kLeastWork = 3e6;  // in blocks, a millisecond's: below it a thread costs more than it gains
 
-/// What the threads share; all of it under the mutex.
+/// What the threads share; all that changes is under the mutex.
 struct Queue {
   std::mutex mutex;
   std::condition_variable changed;
-  std::vector<int> ready;
+  std::vector<std::vector<int>> releases;  ///< of each task: those that wait for it
   std::vector<int> waits_for;
+  std::vector<int> ready;
   int left = 0;
   bool failed = false;
 };
 
-void finish(int task, bool good, const std::vector<FrontTask>& tasks, Queue& queue) {
+void finish(int task, bool good, Queue& queue) {
   --queue.left;
   if (!good) queue.failed = true;
-  const int parent = tasks[task].parent;
-  if (parent >= 0 && --queue.waits_for[parent] == 0) queue.ready.push_back(parent);
+  for (const int next : queue.releases[task]) {
+    if (--queue.waits_for[next] == 0) queue.ready.push_back(next);
+  }
   queue.changed.notify_all();
 }
 
-void work_on(const std::vector<FrontTask>& tasks, Queue& queue, int worker, const std::function<bool(int, int)>& body) {
+void work_on(Queue& queue, int worker, const TaskBody& body) {
   std::unique_lock lock(queue.mutex);
   while (true) {
     queue.changed.wait(lock, [&] { return queue.failed || queue.left == 0 || !queue.ready.empty(); });
@@ -43,12 +45,34 @@ void work_on(const std::vector<FrontTask>& tasks, Queue& queue, int worker, cons
       good = body(task, worker);
     } catch (...) {
       lock.lock();
-      finish(task, false, tasks, queue);
+      finish(task, false, queue);
       throw;
     }
     lock.lock();
-    finish(task, good, tasks, queue);
+    finish(task, good, queue);
   }
+}
+
+bool run_tasks(const std::vector<FrontTask>& tasks, bool up, int threads, const TaskBody& body) {
+  if (tasks.size() == 1) return body(0, 0);
+  const int count = static_cast<int>(tasks.size());
+  Queue queue;
+  queue.left = count;
+  queue.releases.resize(count);
+  queue.waits_for.assign(count, 0);
+  for (int task = 0; task < count; ++task) {
+    if (tasks[task].parent < 0) continue;
+    const int before = up ? task : tasks[task].parent, after = up ? tasks[task].parent : task;
+    queue.releases[before].push_back(after);
+    ++queue.waits_for[after];
+  }
+  for (int task = 0; task < count; ++task) {
+    if (queue.waits_for[task] == 0) queue.ready.push_back(task);
+  }
+  parallel_ranges(threads, threads, 1, [&](int begin, int end) {
+    for (int worker = begin; worker < end; ++worker) work_on(queue, worker, body);
+  });
+  return !queue.failed;
 }
 
 }  // namespace
@@ -66,7 +90,7 @@ std::vector<FrontTask> divide_fronts(const Supernodes& tree, int threads) {
     else
       total += work[s];
   }
-  if (threads <= 1 || total < kLeastWork) return {{0, count, -1, 0}};
+  if (threads <= 1 || total < kLeastWork) return {{0, count, -1}};
   const double most = total / (threads * kTasksPerThread);
   std::vector<FrontTask> tasks;
   std::vector<int> task_of(count, -1);  // of the last supernode in each
@@ -74,28 +98,20 @@ std::vector<FrontTask> divide_fronts(const Supernodes& tree, int threads) {
     const int p = tree.parent[s];
     if (work[s] <= most && p >= 0 && work[p] <= most) continue;  // inside a subtree
     task_of[s] = static_cast<int>(tasks.size());
-    tasks.push_back({work[s] <= most ? begin[s] : s, s + 1, -1, 0});
+    tasks.push_back({work[s] <= most ? begin[s] : s, s + 1, -1});
   }
   for (int s = 0; s < count; ++s) {
-    if (task_of[s] < 0 || tree.parent[s] < 0) continue;
-    tasks[task_of[s]].parent = task_of[tree.parent[s]];
-    ++tasks[task_of[tree.parent[s]]].children;
+    if (task_of[s] >= 0 && tree.parent[s] >= 0) tasks[task_of[s]].parent = task_of[tree.parent[s]];
   }
   return tasks;
 }
 
-bool run_tasks(const std::vector<FrontTask>& tasks, int threads, const std::function<bool(int, int)>& body) {
-  if (tasks.size() == 1) return body(0, 0);
-  Queue queue;
-  queue.left = static_cast<int>(tasks.size());
-  for (int k = queue.left - 1; k >= 0; --k) {
-    queue.waits_for.insert(queue.waits_for.begin(), tasks[k].children);
-    if (tasks[k].children == 0) queue.ready.push_back(k);
-  }
-  parallel_ranges(threads, threads, 1, [&](int begin, int end) {
-    for (int worker = begin; worker < end; ++worker) work_on(tasks, queue, worker, body);
-  });
-  return !queue.failed;
+bool run_tasks_up(const std::vector<FrontTask>& tasks, int threads, const TaskBody& body) {
+  return run_tasks(tasks, true, threads, body);
+}
+
+bool run_tasks_down(const std::vector<FrontTask>& tasks, int threads, const TaskBody& body) {
+  return run_tasks(tasks, false, threads, body);
 }
 
 }  // namespace atlas_refine

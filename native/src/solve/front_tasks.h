@@ -11,15 +11,18 @@ namespace atlas_refine {
 /// Supernodes [begin, end) that one thread takes: a subtree, or one supernode above such.
 struct FrontTask {
   int begin, end;
-  int parent;    ///< the task that waits for it, -1 where none does
-  int children;  ///< tasks that it waits for
+  int parent;  ///< task above it, -1 for roots
 };
 
 /// Tasks in postorder; one thread gets a single one.
 std::vector<FrontTask> divide_fronts(const Supernodes& tree, int threads);
 
-/// Calls body(task, worker) for every task after its children, workers 0 to threads - 1 at the same time. False, and the rest is
-/// left, where one returns false.
-bool run_tasks(const std::vector<FrontTask>& tasks, int threads, const std::function<bool(int, int)>& body);
+/// Called with a task and a worker, 0 to threads - 1; where it returns false the rest is left.
+using TaskBody = std::function<bool(int, int)>;
+
+/// Every task after its children. False where one was.
+bool run_tasks_up(const std::vector<FrontTask>& tasks, int threads, const TaskBody& body);
+/// Every task after its parent.
+bool run_tasks_down(const std::vector<FrontTask>& tasks, int threads, const TaskBody& body);
 
 }  // namespace atlas_refine

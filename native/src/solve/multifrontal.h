@@ -5,9 +5,12 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/chart.h"
+#include "solve/dense_front.h"
+#include "solve/front_tasks.h"
 #include "solve/supernodes.h"
 
 namespace atlas_refine {
@@ -34,16 +37,20 @@ class Buffer {
 /// number of threads.
 class Multifrontal {
  public:
-  /// `slots` are parallel to graph.nodes: the block of each pair.
+  /// The pattern by columns in an order that fills little, `order[k]` the node of column k. `slots` are parallel to graph.nodes:
+  /// the block whose rows are the neighbour's, ~slot where it is stored transposed.
   void analyse(const Adjacency& graph, const std::vector<int>& slots, const std::vector<int>& order);
 
   /// Multiplications of one factorisation, in blocks.
   double work() const { return work_; }
 
+  /// The nodes in the order of their elimination: one with the same fill as that given to `analyse`.
+  const std::vector<int>& order() const { return order_; }
+
   /// False where a pivot is not positive; the factor is then unusable.
   bool factor(const BlockValues& values, int threads);
 
-  /// Solves for one or two right-hand sides in place, 2 values per node.
+  /// Solves for one or two right-hand sides in place, 2 values per node, on the threads that factored.
   void solve(std::span<std::vector<Vec2>* const> sides) const;
 
  private:
@@ -56,17 +63,21 @@ class Multifrontal {
   struct Worker {
     std::array<Buffer, 2> memory;
     std::array<std::size_t, 2> size = {};
+    std::vector<std::pair<int, const double*>> children;  // of one front, and their updates
     Buffer packed;
   };
   class Run;
+  class Sides;
 
   void find_entries(const Adjacency& graph, const std::vector<int>& slots);
   void measure_stacks();
+  Front front(int s) const { return {values_.data() + panel_start_[s], rows(s), 2 * tree_.pivots(s)}; }
   int rows(int s) const { return 2 * (tree_.pivots(s) + tree_.below(s)); }
   std::size_t update_size(int s) const { return 4 * static_cast<std::size_t>(tree_.below(s)) * tree_.below(s); }
   void fill_panel(int s, const BlockValues& values);
 
   Supernodes tree_;
+  std::vector<int> order_;
   double work_ = 0;
   std::vector<char> odd_depth_;           // of supernodes
   std::vector<std::size_t> panel_start_;  // of supernodes, in values_
@@ -74,7 +85,8 @@ class Multifrontal {
   std::vector<Entry> entries_;
   Buffer values_;
   std::array<std::size_t, 2> stack_sizes_ = {};
-  std::vector<Worker> workers_;
+  std::vector<FrontTask> tasks_;
+  int threads_ = 1;
 };
 
 }  // namespace atlas_refine

@@ -32,12 +32,12 @@ std::vector<int> inverse(const std::vector<int>& order) {
   return position;
 }
 
-std::vector<int> elimination_tree(const Adjacency& graph, const std::vector<int>& order, const std::vector<int>& position) {
+std::vector<int> elimination_tree(const Adjacency& graph) {
   const int n = graph.size();
   std::vector<int> parent(n, -1), ancestor(n, -1);
   for (int k = 0; k < n; ++k) {
-    for (int e = graph.start[order[k]]; e < graph.start[order[k] + 1]; ++e) {
-      for (int i = position[graph.nodes[e]]; i >= 0 && i < k;) {
+    for (int e = graph.start[k]; e < graph.start[k + 1]; ++e) {
+      for (int i = graph.nodes[e]; i >= 0 && i < k;) {
         const int next = ancestor[i];
         ancestor[i] = k;
         if (next < 0) parent[i] = k;
@@ -226,19 +226,16 @@ double Supernodes::work(int s) const {
   return w * (w * w / 3 + w * r + r * r);
 }
 
-Supernodes find_supernodes(const Adjacency& graph, const std::vector<int>& order) {
+Supernodes find_supernodes(const Adjacency& graph) {
   // The elimination tree of a postorder is the same tree with other numbers.
-  std::vector<int> parent = elimination_tree(graph, order, inverse(order));
+  const std::vector<int> parent = elimination_tree(graph);
   const std::vector<int> sequence = postorder(tree_of(parent)), rank = inverse(sequence);
-  std::vector<int> columns(order.size()), renumbered(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    columns[k] = order[sequence[k]];
-    renumbered[k] = parent[sequence[k]] < 0 ? -1 : rank[parent[sequence[k]]];
-  }
+  std::vector<int> renumbered(parent.size());
+  for (std::size_t k = 0; k < parent.size(); ++k) renumbered[k] = parent[sequence[k]] < 0 ? -1 : rank[parent[sequence[k]]];
   const Tree tree = tree_of(std::move(renumbered));
-  const std::vector<int> top = join_columns(tree, column_counts(graph, columns, inverse(columns), tree));
+  const std::vector<int> top = join_columns(tree, column_counts(graph, sequence, rank, tree));
   Supernodes out;
-  number_groups(tree, top, columns, out);
+  number_groups(tree, top, sequence, out);
   list_children(out);
   find_rows(graph, out);
   find_rows_in_parents(out);

@@ -5,7 +5,7 @@
 
 namespace atlas_refine {
 
-/// A symmetric pattern as adjacency: neighbours of node i are nodes[start[i]] to nodes[start[i + 1] - 1], without i itself.
+/// A symmetric pattern as adjacency: neighbours of column i are nodes[start[i]] to nodes[start[i + 1] - 1], without i itself.
 struct Adjacency {
   std::vector<int> start;
   std::vector<int> nodes;
@@ -13,12 +13,12 @@ struct Adjacency {
   int size() const { return static_cast<int>(start.size()) - 1; }
 };
 
-/// Consecutive columns that are factored as one dense front, children before their parents. Positions count nodes in the order in
-/// which they are eliminated.
+/// Consecutive columns that are factored as one dense front, children before their parents. Positions count columns in the order
+/// in which they are eliminated after all: one with the same fill as theirs.
 struct Supernodes {
-  std::vector<int> order;     ///< node at each position
-  std::vector<int> position;  ///< of each node
-  std::vector<int> first;     ///< position of each supernode's first column; then the number of nodes
+  std::vector<int> order;     ///< column at each position
+  std::vector<int> position;  ///< of each column
+  std::vector<int> first;     ///< position of each supernode's first column; then their number
   std::vector<int> parent;    ///< -1 for roots
   std::vector<int> child_start, children;
   std::vector<int> row_start;      ///< of each supernode in `rows`
@@ -32,6 +32,7 @@ struct Supernodes {
   double work(int s) const;
 };
 
-Supernodes find_supernodes(const Adjacency& graph, const std::vector<int>& order);
+/// Of a pattern whose columns are eliminated in the order of their numbers.
+Supernodes find_supernodes(const Adjacency& graph);
 
 }  // namespace atlas_refine
