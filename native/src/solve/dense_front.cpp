@@ -3,6 +3,7 @@
 #include "solve/dense_front.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <type_traits>
 
@@ -39,6 +40,10 @@ ATLAS_REFINE_INLINE void subtract_products(typename Register<Lanes>::Type (&sums
     for (int c = 0; c < Columns; ++c) sums[c] -= row * columns[c];
   }
 }
+
+/// Columns that a packed tile has room for. One more than are used: the same columns of many tiles would share a set of the
+/// cache.
+int packed_columns(const Front& front) { return std::min(front.pivots, kChunk) + 1; }
 
 /// Where a tile's products go: `to` by columns `stride` apart.
 struct Target {
@@ -128,10 +133,11 @@ ATLAS_REFINE_INLINE void with_columns(int columns, Body&& body) {
 /// row after the first block on.
 struct Chunk {
   int begin, end, first;
+  int room;  ///< columns that a tile has room for
   double* packed;
 
   int packed_row() const { return begin + first; }
-  double* tile(int row) const { return packed + static_cast<long>(row - packed_row()) * kChunk; }
+  double* tile(int row) const { return packed + static_cast<long>(row - packed_row()) * room; }
   int depth() const { return end - begin; }
 };
 
@@ -188,7 +194,7 @@ ATLAS_REFINE_INLINE bool factor_with(const Front& front, double* update, double*
   // The first block takes what is over, so that tiles of rows end where the pivots do.
   int first = front.pivots % kTile == 0 ? kTile : front.pivots % kTile;
   for (int begin = 0; begin < front.pivots; first = kTile) {
-    const Chunk chunk{begin, std::min(front.pivots, begin + first + kChunk - kTile), first, packed};
+    const Chunk chunk{begin, std::min(front.pivots, begin + first + kChunk - kTile), first, packed_columns(front), packed};
     if (!factor_chunk<Lanes>(front, chunk)) return false;
     update_panel<Lanes>(front, chunk);
     if (begin == 0)
@@ -218,25 +224,31 @@ ATLAS_REFINE_INLINE void subtract_columns(const double* columns, int stride, int
   if constexpr (Lanes > 2) subtract_columns<Lanes / 2, Columns>(columns, stride, height, factors, to, row);
 }
 
-/// Dot products of columns with `values`: four sums each, whatever the registers.
-template <int Columns>
-ATLAS_REFINE_INLINE void dot_columns(const double* columns, int stride, int height, const double* values, double* dots) {
+/// Dot products of columns with each of the values: four sums each, whatever the registers.
+template <int Columns, int Sides>
+ATLAS_REFINE_INLINE void dot_columns(const double* columns, int stride, int height,
+                                     const std::array<const double*, Sides>& values, double (&dots)[Sides][Columns]) {
   constexpr int kSums = 4;
-  Register<kSums>::Type sums[Columns] = {};
+  Register<kSums>::Type sums[Sides][Columns] = {};
   int row = 0;
   for (; row + kSums <= height; row += kSums) {
-    Register<kSums>::Type value, column;
-    load(value, values + row);
+    Register<kSums>::Type value[Sides], column;
+#pragma GCC unroll 2
+    for (int k = 0; k < Sides; ++k) load(value[k], values[k] + row);
 #pragma GCC unroll 4
     for (int c = 0; c < Columns; ++c) {
       load(column, columns + row + static_cast<long>(c) * stride);
-      sums[c] += column * value;
+#pragma GCC unroll 2
+      for (int k = 0; k < Sides; ++k) sums[k][c] += column * value[k];
     }
   }
-  for (int c = 0; c < Columns; ++c) {
-    double rest = 0;
-    for (int k = row; k < height; ++k) rest += columns[k + static_cast<long>(c) * stride] * values[k];
-    dots[c] = (sums[c][0] + sums[c][1]) + (sums[c][2] + sums[c][3]) + rest;
+  for (int k = 0; k < Sides; ++k) {
+    for (int c = 0; c < Columns; ++c) {
+      double rest = 0;
+      for (int i = row; i < height; ++i) rest += columns[i + static_cast<long>(c) * stride] * values[k][i];
+      const auto& sum = sums[k][c];
+      dots[k][c] = (sum[0] + sum[1]) + (sum[2] + sum[3]) + rest;
+    }
   }
 }
 
@@ -255,19 +267,26 @@ ATLAS_REFINE_INLINE void forward_columns(const Front& front, int begin, const Fr
   subtract_columns<Lanes, Columns>(columns + front.pivots, front.rows, front.below(), x, side.below);
 }
 
-template <int Columns>
-ATLAS_REFINE_INLINE void backward_columns(const Front& front, int begin, const FrontSide& side) {
+template <int Columns, int Sides>
+ATLAS_REFINE_INLINE void backward_columns(const Front& front, int begin, const FrontSide* sides) {
   const double* columns = front.panel + static_cast<long>(begin) * front.rows;
-  double* x = side.at_pivots + begin;
   const int end = begin + Columns;
-  double inner[Columns], below[Columns];
-  dot_columns<Columns>(columns + end, front.rows, front.pivots - end, x + Columns, inner);
-  dot_columns<Columns>(columns + front.pivots, front.rows, front.below(), side.below, below);
-  for (int c = Columns - 1; c >= 0; --c) {
-    const double* column = columns + begin + static_cast<long>(c) * front.rows;
-    double sum = x[c] - inner[c] - below[c];
-    for (int d = c + 1; d < Columns; ++d) sum -= column[d] * x[d];
-    x[c] = sum * column[c];
+  std::array<const double*, Sides> after, below;
+  for (int k = 0; k < Sides; ++k) {
+    after[k] = sides[k].at_pivots + end;
+    below[k] = sides[k].below;
+  }
+  double inner[Sides][Columns], outer[Sides][Columns];
+  dot_columns<Columns, Sides>(columns + end, front.rows, front.pivots - end, after, inner);
+  dot_columns<Columns, Sides>(columns + front.pivots, front.rows, front.below(), below, outer);
+  for (int k = 0; k < Sides; ++k) {
+    double* x = sides[k].at_pivots + begin;
+    for (int c = Columns - 1; c >= 0; --c) {
+      const double* column = columns + begin + static_cast<long>(c) * front.rows;
+      double sum = x[c] - inner[k][c] - outer[k][c];
+      for (int d = c + 1; d < Columns; ++d) sum -= column[d] * x[d];
+      x[c] = sum * column[c];
+    }
   }
 }
 
@@ -281,14 +300,11 @@ ATLAS_REFINE_INLINE void forward_with(const Front& front, std::span<const FrontS
   for (const FrontSide& side : sides) forward_columns<Lanes, 2>(front, begin, side);
 }
 
-ATLAS_REFINE_INLINE void backward_with(const Front& front, std::span<const FrontSide> sides) {
+template <int Sides>
+ATLAS_REFINE_INLINE void backward_with(const Front& front, const FrontSide* sides) {
   int begin = front.pivots / 4 * 4;
-  if (begin < front.pivots) {
-    for (const FrontSide& side : sides) backward_columns<2>(front, begin, side);
-  }
-  for (begin -= 4; begin >= 0; begin -= 4) {
-    for (const FrontSide& side : sides) backward_columns<4>(front, begin, side);
-  }
+  if (begin < front.pivots) backward_columns<2, Sides>(front, begin, sides);
+  for (begin -= 4; begin >= 0; begin -= 4) backward_columns<4, Sides>(front, begin, sides);
 }
 
 // The same code for one set of instructions.
@@ -297,7 +313,10 @@ ATLAS_REFINE_INLINE void backward_with(const Front& front, std::span<const Front
     return factor_with<lanes>(front, update, packed);                                                                     \
   }                                                                                                                       \
   target void forward_##name(const Front& front, std::span<const FrontSide> sides) { forward_with<lanes>(front, sides); } \
-  target void backward_##name(const Front& front, std::span<const FrontSide> sides) { backward_with(front, sides); }      \
+  target void backward_##name(const Front& front, std::span<const FrontSide> sides) {                                     \
+    if (sides.size() == 1) return backward_with<1>(front, sides.data());                                                  \
+    backward_with<2>(front, sides.data());                                                                                \
+  }                                                                                                                       \
   constexpr FrontKernels k_##name{#name, factor_##name, forward_##name, backward_##name};
 
 ATLAS_REFINE_KERNELS(baseline, 2, )
@@ -323,7 +342,7 @@ const FrontKernels& best_kernels() {
 }
 
 std::size_t packed_size(const Front& front) {
-  return (static_cast<std::size_t>(front.rows) + 2 * kTile) / kTile * kTile * kChunk;
+  return (static_cast<std::size_t>(front.rows) + 2 * kTile) / kTile * kTile * packed_columns(front);
 }
 
 }  // namespace atlas_refine

@@ -12,6 +12,9 @@ struct Columns {
   int stride;
 };
 
+/// Two values in one register.
+void add(const double* from, double* to) { Eigen::Map<Vec2>(to) += Eigen::Map<const Vec2>(from); }
+
 /// Adds those columns of a child's update that lie in columns [begin, end) of its parent's front, all in nodes, to columns from
 /// `begin` on; rows count from there too.
 void add_update(const double* update, std::span<const int> places, int begin, int end, const Columns& to) {
@@ -25,10 +28,8 @@ void add_update(const double* update, std::span<const int> places, int begin, in
     double* to_right = to_left + to.stride;
     for (int i = j; i < count; ++i) {
       const int row = 2 * (places[i] - begin);
-      to_left[row] += left[2 * i];
-      to_left[row + 1] += left[2 * i + 1];
-      to_right[row] += right[2 * i];
-      to_right[row + 1] += right[2 * i + 1];
+      add(left + 2 * i, to_left + row);
+      add(right + 2 * i, to_right + row);
     }
   }
 }
@@ -188,9 +189,9 @@ bool Multifrontal::factor(const BlockValues& values, int threads) {
   values_.reserve(panel_start_.back());
   tasks_ = divide_fronts(tree_, threads);
   threads_ = tasks_.size() > 1 ? threads : 1;
-  std::vector<Worker> workers(threads_);
+  workers_.resize(std::max<std::size_t>(workers_.size(), threads_));
   Run run(*this, values);
-  return run_tasks_up(tasks_, threads_, [&](int task, int worker) { return run(task, workers[worker]); });
+  return run_tasks_up(tasks_, threads_, [&](int task, int worker) { return run(task, workers_[worker]); });
 }
 
 }  // namespace atlas_refine

@@ -87,6 +87,7 @@ class Multifrontal {
   std::array<std::size_t, 2> stack_sizes_ = {};
   std::vector<FrontTask> tasks_;
   int threads_ = 1;
+  std::vector<Worker> workers_;  // keep their memory for the next factorisation
 };
 
 }  // namespace atlas_refine
