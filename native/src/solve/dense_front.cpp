@@ -60,11 +60,11 @@ ATLAS_REFINE_INLINE void product_tile(const double* rows, const double* columns,
     typename Register<Lanes>::Type sums[Columns] = {};
     if constexpr (!Fresh) {
 #pragma GCC unroll 8
-      for (int c = 0; c < Columns; ++c) load(sums[c], target.to + row + static_cast<long>(c) * target.stride);
+      for (int c = 0; c < Columns; ++c) load(sums[c], target.to + row + static_cast<std::ptrdiff_t>(c) * target.stride);
     }
     subtract_products<Lanes, Columns>(sums, rows + row, columns, depth);
 #pragma GCC unroll 8
-    for (int c = 0; c < Columns; ++c) store(sums[c], target.to + row + static_cast<long>(c) * target.stride);
+    for (int c = 0; c < Columns; ++c) store(sums[c], target.to + row + static_cast<std::ptrdiff_t>(c) * target.stride);
   }
   if constexpr (Lanes > 2) product_tile<Lanes / 2, Columns, Fresh>(rows, columns, depth, target, row);
 }
@@ -83,15 +83,15 @@ ATLAS_REFINE_INLINE void solve_tile(double* packed, const Block& block, const Ta
   for (; row + Lanes <= target.height; row += Lanes) {
     typename Register<Lanes>::Type sums[Columns];
 #pragma GCC unroll 8
-    for (int c = 0; c < Columns; ++c) load(sums[c], target.to + row + static_cast<long>(c) * target.stride);
+    for (int c = 0; c < Columns; ++c) load(sums[c], target.to + row + static_cast<std::ptrdiff_t>(c) * target.stride);
     subtract_products<Lanes, Columns>(sums, packed + row, block.packed, block.depth);
 #pragma GCC unroll 8
     for (int c = 0; c < Columns; ++c) {
-      const double* column = block.diagonal + static_cast<long>(c) * target.stride;
+      const double* column = block.diagonal + static_cast<std::ptrdiff_t>(c) * target.stride;
       sums[c] *= column[c];
 #pragma GCC unroll 8
       for (int d = c + 1; d < Columns; ++d) sums[d] -= sums[c] * column[d];
-      store(sums[c], target.to + row + static_cast<long>(c) * target.stride);
+      store(sums[c], target.to + row + static_cast<std::ptrdiff_t>(c) * target.stride);
       store(sums[c], packed + row + (block.depth + c) * kTile);
     }
   }
@@ -101,13 +101,13 @@ ATLAS_REFINE_INLINE void solve_tile(double* packed, const Block& block, const Ta
 /// Cholesky factor of a small block, the inverse on its diagonal.
 ATLAS_REFINE_INLINE bool factor_block(double* block, int stride, int size) {
   for (int k = 0; k < size; ++k) {
-    double* column = block + static_cast<long>(k) * stride;
+    double* column = block + static_cast<std::ptrdiff_t>(k) * stride;
     const double pivot = column[k];
     if (!(pivot > 0) || !std::isfinite(pivot)) return false;
     column[k] = 1 / std::sqrt(pivot);
     for (int i = k + 1; i < size; ++i) column[i] *= column[k];
     for (int j = k + 1; j < size; ++j) {
-      double* other = block + static_cast<long>(j) * stride;
+      double* other = block + static_cast<std::ptrdiff_t>(j) * stride;
       for (int i = j; i < size; ++i) other[i] -= column[j] * column[i];
     }
   }
@@ -137,7 +137,7 @@ struct Chunk {
   double* packed;
 
   int packed_row() const { return begin + first; }
-  double* tile(int row) const { return packed + static_cast<long>(row - packed_row()) * room; }
+  double* tile(int row) const { return packed + static_cast<std::ptrdiff_t>(row - packed_row()) * room; }
   int depth() const { return end - begin; }
 };
 
@@ -146,15 +146,15 @@ ATLAS_REFINE_INLINE bool factor_chunk(const Front& front, const Chunk& chunk) {
   const int stride = front.rows;
   int columns = chunk.first;
   for (int begin = chunk.begin; begin < chunk.end; begin += columns, columns = kTile) {
-    if (begin > chunk.begin) columns = kTile;
-    double* diagonal = front.panel + begin + static_cast<long>(begin) * stride;
+    double* diagonal = front.panel + begin + static_cast<std::ptrdiff_t>(begin) * stride;
     const Block block{diagonal, begin > chunk.begin ? chunk.tile(begin) : nullptr, begin - chunk.begin};
     if (block.depth > 0) product_tile<Lanes, kTile, false>(block.packed, block.packed, block.depth, {diagonal, stride, kTile});
     if (!factor_block(diagonal, stride, columns)) return false;
     with_columns(
         columns, [&](auto constant) __attribute__((always_inline)) {
           for (int row = begin + columns; row < front.rows; row += kTile) {
-            const Target target{front.panel + row + static_cast<long>(begin) * stride, stride, std::min(kTile, front.rows - row)};
+            const Target target{front.panel + row + static_cast<std::ptrdiff_t>(begin) * stride, stride,
+                                std::min(kTile, front.rows - row)};
             solve_tile<Lanes, constant.value>(chunk.tile(row), block, target);
           }
         });
@@ -167,7 +167,7 @@ template <int Lanes>
 ATLAS_REFINE_INLINE void update_panel(const Front& front, const Chunk& chunk) {
   for (int column = chunk.end; column < front.pivots; column += kTile) {
     for (int row = column; row < front.rows; row += kTile) {
-      const Target target{front.panel + row + static_cast<long>(column) * front.rows, front.rows,
+      const Target target{front.panel + row + static_cast<std::ptrdiff_t>(column) * front.rows, front.rows,
                           std::min(kTile, front.rows - row)};
       product_tile<Lanes, kTile, false>(chunk.tile(row), chunk.tile(column), chunk.depth(), target);
     }
@@ -180,7 +180,7 @@ ATLAS_REFINE_INLINE void update_below(const Front& front, const Chunk& chunk, do
   for (int column = front.pivots; column < front.rows; column += kTile) {
     with_columns(
         std::min(kTile, front.rows - column), [&](auto constant) __attribute__((always_inline)) {
-          double* to = update + static_cast<long>(column - front.pivots) * stride;
+          double* to = update + static_cast<std::ptrdiff_t>(column - front.pivots) * stride;
           for (int row = column; row < front.rows; row += kTile) {
             const Target target{to + row - front.pivots, stride, std::min(kTile, front.rows - row)};
             product_tile<Lanes, constant.value, Fresh>(chunk.tile(row), chunk.tile(column), chunk.depth(), target);
@@ -216,7 +216,7 @@ ATLAS_REFINE_INLINE void subtract_columns(const double* columns, int stride, int
     load(sum, to + row);
 #pragma GCC unroll 4
     for (int c = 0; c < Columns; ++c) {
-      load(column, columns + row + static_cast<long>(c) * stride);
+      load(column, columns + row + static_cast<std::ptrdiff_t>(c) * stride);
       sum -= column * factors[c];
     }
     store(sum, to + row);
@@ -237,7 +237,7 @@ ATLAS_REFINE_INLINE void dot_columns(const double* columns, int stride, int heig
     for (int k = 0; k < Sides; ++k) load(value[k], values[k] + row);
 #pragma GCC unroll 4
     for (int c = 0; c < Columns; ++c) {
-      load(column, columns + row + static_cast<long>(c) * stride);
+      load(column, columns + row + static_cast<std::ptrdiff_t>(c) * stride);
 #pragma GCC unroll 2
       for (int k = 0; k < Sides; ++k) sums[k][c] += column * value[k];
     }
@@ -245,7 +245,7 @@ ATLAS_REFINE_INLINE void dot_columns(const double* columns, int stride, int heig
   for (int k = 0; k < Sides; ++k) {
     for (int c = 0; c < Columns; ++c) {
       double rest = 0;
-      for (int i = row; i < height; ++i) rest += columns[i + static_cast<long>(c) * stride] * values[k][i];
+      for (int i = row; i < height; ++i) rest += columns[i + static_cast<std::ptrdiff_t>(c) * stride] * values[k][i];
       const auto& sum = sums[k][c];
       dots[k][c] = (sum[0] + sum[1]) + (sum[2] + sum[3]) + rest;
     }
@@ -255,10 +255,10 @@ ATLAS_REFINE_INLINE void dot_columns(const double* columns, int stride, int heig
 /// Columns [begin, begin + Columns) of L^-1 on one side.
 template <int Lanes, int Columns>
 ATLAS_REFINE_INLINE void forward_columns(const Front& front, int begin, const FrontSide& side) {
-  const double* columns = front.panel + static_cast<long>(begin) * front.rows;
+  const double* columns = front.panel + static_cast<std::ptrdiff_t>(begin) * front.rows;
   double* x = side.at_pivots + begin;
   for (int c = 0; c < Columns; ++c) {
-    const double* column = columns + begin + static_cast<long>(c) * front.rows;
+    const double* column = columns + begin + static_cast<std::ptrdiff_t>(c) * front.rows;
     x[c] *= column[c];
     for (int d = c + 1; d < Columns; ++d) x[d] -= column[d] * x[c];
   }
@@ -269,7 +269,7 @@ ATLAS_REFINE_INLINE void forward_columns(const Front& front, int begin, const Fr
 
 template <int Columns, int Sides>
 ATLAS_REFINE_INLINE void backward_columns(const Front& front, int begin, const FrontSide* sides) {
-  const double* columns = front.panel + static_cast<long>(begin) * front.rows;
+  const double* columns = front.panel + static_cast<std::ptrdiff_t>(begin) * front.rows;
   const int end = begin + Columns;
   std::array<const double*, Sides> after, below;
   for (int k = 0; k < Sides; ++k) {
@@ -282,7 +282,7 @@ ATLAS_REFINE_INLINE void backward_columns(const Front& front, int begin, const F
   for (int k = 0; k < Sides; ++k) {
     double* x = sides[k].at_pivots + begin;
     for (int c = Columns - 1; c >= 0; --c) {
-      const double* column = columns + begin + static_cast<long>(c) * front.rows;
+      const double* column = columns + begin + static_cast<std::ptrdiff_t>(c) * front.rows;
       double sum = x[c] - inner[k][c] - outer[k][c];
       for (int d = c + 1; d < Columns; ++d) sum -= column[d] * x[d];
       x[c] = sum * column[c];
