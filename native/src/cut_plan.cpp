@@ -44,7 +44,7 @@ RepairedCharts with_positive_triangles(const Refinement& run) {
 void turn_kept(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts) {
   const PlaceOptions options{.rotate = run.options.rotate, .align_axes = run.options.align_axes};
   for (std::size_t c = 0; c < charts.size(); ++c) {
-    if (!bends(freedom, c) && needles_among({charts[c]}).empty())
+    if (!bends(freedom, c) && !is_fixed(freedom, c) && needles_among({charts[c]}).empty())
       charts[c] = place_charts({charts[c]}, options, run.monitor).front();
   }
 }

@@ -202,6 +202,13 @@ void warn_of_polygons(const CertifiedAtlas& result, Journal& journal) {
 
 }  // namespace
 
+Outcome left_as_it_is(const InputAtlas& input, const RefineOptions& options, std::string reason) {
+  Outcome out = unchanged(input, options);
+  out.bound_met = false;
+  out.reason = std::move(reason);
+  return out;
+}
+
 Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const ProgressRange& range, Monitor& monitor,
                    Journal& journal) {
   note_mirrored(input, journal);

@@ -2,12 +2,30 @@
 // then compacted exactly.
 #include "pack/pack_charts.h"
 
+#include <cmath>
+
 #include "measure/distortion.h"
+#include "pack/canonical_outlines.h"
 #include "pack/compaction.h"
 #include "pack/grid_search.h"
 #include "pack/turns.h"
 
 namespace atlas_refine {
+
+namespace {
+
+// Beyond the gap, so that rounding it does not matter.
+constexpr double kRounding = 1e-6;
+
+std::vector<Placement> place_many(const std::vector<Outline>& outlines, double area, const PackOptions& options) {
+  const CanonicalOutlines canonical = canonical_outlines(outlines, std::sqrt(area));
+  PackOptions unit = options;
+  unit.gap = static_cast<float>((1 + kRounding) * options.gap / canonical.unit);
+  unit.gap += 2 * canonical.off_grid;
+  return canonical.of_input(search_on_grid(canonical.outlines, 1, unit));
+}
+
+}  // namespace
 
 Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<double>& areas, const PackOptions& options) {
   Packing packing;
@@ -18,7 +36,7 @@ Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<doub
     const Turn turn = best_turn(outlines[0], options.box_aspect);
     packing.placements.push_back({turn.cosine, turn.sine, Vec2::Zero()});
   } else {
-    packing.placements = search_on_grid(outlines, area, options);
+    packing.placements = place_many(outlines, area, options);
   }
   const Box box = placed_box(outlines, packing.placements);
   for (Placement& placement : packing.placements) placement.offset -= box.min;

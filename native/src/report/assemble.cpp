@@ -164,6 +164,7 @@ AssembledAtlas divided(const InputAtlas& whole, bool several, const AssembleOpti
   CutFaces faces = cut_faces(whole.atlas, whole.set, pieces.atlas, {pieces.uvs, options.triangulate});
   AssembledAtlas out;
   out.mesh = {whole.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
+  out.mesh.vertex_meshes = std::move(faces.vertex_meshes);
   for (std::size_t c = 0; c < faces.corners.size(); ++c) {
     const auto [p, vertex] = faces.corners[c];
     const bool own = faces.mesh.corner_weights[c][0] == 1 && pieces.own[p];
