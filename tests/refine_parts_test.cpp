@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <limits>
+#include <set>
 
 #include "atlas_refine/refine.h"
 #include "shapes.h"
@@ -163,6 +164,48 @@ TEST(Stacks, AreCutAlike) {
   for (int c = 0; c < half; ++c) EXPECT_EQ(result.corner_uvs[c], result.corner_uvs[half + c]);
   const int faces = static_cast<int>(result.cut->face_sources.size()) / 2;
   for (int f = 0; f < faces; ++f) EXPECT_EQ(result.cut->face_sources[f] + one.face_count(), result.cut->face_sources[faces + f]);
+}
+
+/// Every corner of the cut is a mean of corners of its own face, where its vertex lies, and no face names a vertex twice.
+void expect_whole_cut(const Atlas& atlas, const CutMesh& cut) {
+  const auto old = static_cast<int>(atlas.positions.size());
+  const auto position = [&](int corner) { return atlas.positions[atlas.corner_vertices[corner]]; };
+  for (std::size_t f = 0; f < cut.face_sources.size(); ++f) {
+    const int face = cut.face_sources[f];
+    std::set<int> vertices;
+    for (int c = cut.face_offsets[f]; c < cut.face_offsets[f + 1]; ++c) {
+      EXPECT_TRUE(vertices.insert(cut.corner_vertices[c]).second) << "face " << face;
+      Vec3 mean = Vec3::Zero();
+      for (int k = 0; k < 3; ++k) {
+        const int source = cut.corner_sources[c][k];
+        ASSERT_GE(source, atlas.face_offsets[face]);
+        ASSERT_LT(source, atlas.face_offsets[face + 1]);
+        mean += cut.corner_weights[c][k] * position(source);
+      }
+      if (cut.corner_vertices[c] < old) continue;
+      const NewVertex& vertex = cut.new_vertices[cut.corner_vertices[c] - old];
+      for (int k = 0; k < 3; ++k) mean -= vertex.weights[k] * position(vertex.corners[k]);
+      EXPECT_LT(mean.norm(), 1e-12);
+    }
+  }
+}
+
+TEST(Stacks, ChartsOfWhichOneHasATipAreCutAlike) {
+  // The tip is many vertices at one place: edges from them are one edge in space on the cone, and several on the sheet.
+  const Atlas tip = cone(8);
+  Atlas flat = tip;
+  for (int c = 0; c < flat.corner_count(); ++c)
+    flat.positions[flat.corner_vertices[c]] = {flat.corner_uvs[c].x(), flat.corner_uvs[c].y(), 0};
+  for (const std::vector<Atlas>& charts : {std::vector{tip, flat}, {flat, tip}, {tip, tip}, {tip, flat, tip}}) {
+    const Atlas atlas = shapes::combine(charts);
+    const RefineResult result = refine(atlas, {.pe_bound = 0.8, .seams = Seams::Rectangles});
+    EXPECT_EQ(result.charts[1].fate, Fate::Stacked);
+    ASSERT_EQ(result.intervention, Intervention::Cut);
+    ASSERT_TRUE(result.cut);
+    expect_whole_cut(atlas, *result.cut);
+    const std::set<std::array<int, 2>> seams(result.cut->new_seams.begin(), result.cut->new_seams.end());
+    EXPECT_EQ(seams.size(), result.cut->new_seams.size()) << "a seam is named twice";
+  }
 }
 
 TEST(Stacks, AreSeparatedWhereAsked) {
