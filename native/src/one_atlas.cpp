@@ -205,6 +205,7 @@ void warn_of_polygons(const CertifiedAtlas& result, Journal& journal) {
 Outcome left_as_it_is(const InputAtlas& input, const RefineOptions& options, std::string reason) {
   Outcome out = unchanged(input, options);
   out.bound_met = false;
+  out.gap = Gap{std::min(Gap{}.value, input.measures.gap_between)};
   out.reason = std::move(reason);
   return out;
 }

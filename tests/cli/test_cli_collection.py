@@ -104,3 +104,19 @@ def test_report_may_not_be_one_of_the_results(program, tmp_path, models):
     for place in (tmp_path / "out" / models[1].name, models[2]):
         (tmp_path / "out").mkdir(exist_ok=True)
         program.refused(2, *models, "-o", tmp_path / "out", "--report", place)
+
+
+def test_files_that_lie_at_one_place_share_no_chart(program, tmp_path):
+    """Two levels of detail of one sheet, side by side in the UVs as in space: not joined where they touch."""
+    left, report = tmp_path / "left.obj", tmp_path / "r.json"
+    left.write_text(grid(4))
+    right = tmp_path / "right.obj"
+    mirrored = [line.split() for line in grid(2).splitlines()]
+    right.write_text(
+        "\n".join(" ".join([w[0], str(1 + float(w[1])), *w[2:]] if w[0] in ("v", "vt") else w) for w in mirrored) + "\n"
+    )
+    run = program(left, right, "-o", tmp_path / "out", "--report", report, "--relax")
+    assert run.returncode == 0, run.stderr
+    told = json.loads(report.read_text())
+    assert told["before"]["chart_count"] == 2
+    assert told["before"]["seam_edges"] == 0

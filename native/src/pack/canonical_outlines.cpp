@@ -74,11 +74,7 @@ bool comes_before(const Outline& a, const Outline& b) {
 std::vector<Turn> candidate_turns(const Outline& outline, const std::vector<Vec2>& hull) {
   std::vector<Turn> turns = {{}};
   if (outline.rotate == Rotate::None) return turns;
-  if (outline.rotate == Rotate::Any) {
-    turns = small_box_turns(hull, kMostTurns);
-    const double most = turned_box(hull, turns.front()).area() * (1 + kEquallySmall);
-    std::erase_if(turns, [&](const Turn& turn) { return turned_box(hull, turn).area() > most; });
-  }
+  if (outline.rotate == Rotate::Any) turns = smallest_box_turns(hull, kEquallySmall, kMostTurns);
   std::vector<Turn> all;
   for (Turn turn : turns) {
     for (int quarter = 0; quarter < 4; ++quarter, turn = turn.quarter_turned()) all.push_back(turn);

@@ -190,13 +190,14 @@ double area_of(const std::vector<Outline>& outlines) {
 
 std::optional<FramePacking> pack_in_frame(const std::vector<Outline>& outlines, const std::vector<Outline>& obstacles,
                                           const FrameOptions& asked) {
-  const CanonicalOutlines canonical = canonical_outlines(outlines, std::sqrt(area_of(outlines)));
+  // A power of two: scales are divided by it without rounding.
+  const CanonicalOutlines canonical = canonical_outlines(outlines, std::ldexp(1, std::ilogb(area_of(outlines)) / 2));
   FrameOptions options = asked;
   options.enough *= canonical.unit;
   options.gap += 2 * options.enough * canonical.off_grid;
   options.margin += options.enough * canonical.off_grid;
   FrameSearch search(canonical.outlines, obstacles, options);
-  const double least = std::sqrt(kLeastShare * options.frame.prod());
+  const double least = std::sqrt(kLeastShare * options.frame.prod() / area_of(canonical.outlines));
   double scale = options.enough, too_large = scale;
   std::vector<Placement> found;
   for (found = search.fit(scale, 0); found.empty(); found = search.fit(scale, 1 - scale / options.enough)) {
