@@ -107,14 +107,13 @@ def test_report_may_not_be_one_of_the_results(program, tmp_path, models):
 
 
 def test_files_that_lie_at_one_place_share_no_chart(program, tmp_path):
-    """Two levels of detail of one sheet, side by side in the UVs as in space: not joined where they touch."""
-    left, report = tmp_path / "left.obj", tmp_path / "r.json"
+    """Two sheets side by side in the UVs as in space: as one file they were one chart."""
+    left, right, report = (tmp_path / name for name in ("left.obj", "right.obj", "r.json"))
     left.write_text(grid(4))
-    right = tmp_path / "right.obj"
-    mirrored = [line.split() for line in grid(2).splitlines()]
-    right.write_text(
-        "\n".join(" ".join([w[0], str(1 + float(w[1])), *w[2:]] if w[0] in ("v", "vt") else w) for w in mirrored) + "\n"
-    )
+    shift = {"v": 1.0, "vt": 0.5}
+    words = [line.split() for line in grid(4).splitlines()]
+    moved = [[w[0], str(shift[w[0]] + float(w[1])), *w[2:]] if w[0] in shift else w for w in words]
+    right.write_text("\n".join(map(" ".join, moved)) + "\n")
     run = program(left, right, "-o", tmp_path / "out", "--report", report, "--relax")
     assert run.returncode == 0, run.stderr
     told = json.loads(report.read_text())
