@@ -25,6 +25,18 @@ std::vector<Placement> place_many(const std::vector<Outline>& outlines, double a
   return canonical.of_input(search_on_grid(canonical.outlines, 1, unit));
 }
 
+/// Of turns that are equally good the one that the outline's own shape tells; a chart that is turned by quarters only stays
+/// upright then.
+Placement place_one(const Outline& outline, double area, double box_aspect) {
+  if (outline.rotate != Rotate::Any) {
+    const Turn turn = best_turn(outline, box_aspect);
+    return {turn.cosine, turn.sine, Vec2::Zero()};
+  }
+  const CanonicalOutlines canonical = canonical_outlines({outline}, std::sqrt(area));
+  const Turn turn = best_turn(canonical.outlines[0], box_aspect);
+  return canonical.of_input({{turn.cosine, turn.sine, Vec2::Zero()}})[0];
+}
+
 }  // namespace
 
 Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<double>& areas, const PackOptions& options) {
@@ -33,8 +45,7 @@ Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<doub
   double area = 0;
   for (const double chart_area : areas) area += chart_area;
   if (outlines.size() == 1) {
-    const Turn turn = best_turn(outlines[0], options.box_aspect);
-    packing.placements.push_back({turn.cosine, turn.sine, Vec2::Zero()});
+    packing.placements.push_back(place_one(outlines[0], area, options.box_aspect));
   } else {
     packing.placements = place_many(outlines, area, options);
   }

@@ -113,8 +113,9 @@ Turn best_turn(const Outline& outline, double aspect) {
   const std::vector<Vec2> hull = convex_hull(outline);
   if (outline.rotate == Rotate::Any) return best_turn(hull, aspect);
   const auto cost = [&](const Turn& turn) { return box_of_aspect(turned_box(hull, turn), aspect).area(); };
+  constexpr double kBetter = 1 - 1e-9;  // by more than rounding
   const Turn upright, turned = upright.quarter_turned();
-  return outline.rotate == Rotate::QuarterTurns && cost(turned) < cost(upright) ? turned : upright;
+  return outline.rotate == Rotate::QuarterTurns && cost(turned) < kBetter * cost(upright) ? turned : upright;
 }
 
 Turn best_turn(const std::vector<Vec2>& hull, double aspect) {
