@@ -32,9 +32,12 @@ Placement place_one(const Outline& outline, double area, double box_aspect) {
     const Turn turn = best_turn(outline, box_aspect);
     return {turn.cosine, turn.sine, Vec2::Zero()};
   }
-  const CanonicalOutlines canonical = canonical_outlines({outline}, std::sqrt(area));
-  const Turn turn = best_turn(canonical.outlines[0], box_aspect);
-  return canonical.of_input({{turn.cosine, turn.sine, Vec2::Zero()}})[0];
+  const Placement first = canonical_outlines({outline}, std::sqrt(area)).motions[0];
+  const Turn own{first.cosine, first.sine};
+  std::vector<Vec2> hull = convex_hull(outline);
+  for (Vec2& p : hull) p = own.apply(p);
+  const Turn then = box_aspect > 0 ? best_turn(hull, box_aspect) : Turn{};
+  return {then.cosine * own.cosine - then.sine * own.sine, then.sine * own.cosine + then.cosine * own.sine, Vec2::Zero()};
 }
 
 }  // namespace
