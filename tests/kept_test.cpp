@@ -6,6 +6,7 @@
 
 #include "charts.h"
 #include "geometry/freedom.h"
+#include "output_atlas.h"
 #include "refine_checks.h"
 #include "shapes.h"
 
@@ -313,14 +314,34 @@ TEST(Locked, AllChartsWithBestEffortAreLeftAsTheyAre) {
   EXPECT_TRUE(testing::same_bits(result.corner_uvs, atlas.corner_uvs));
 }
 
-TEST(Locked, RectanglesFallBackToTheSqueezeAndSaySo) {
+TEST(Locked, OthersAreCutAroundThem) {
   const Atlas atlas = five_charts();
-  const RefineOptions options{.pe_bound = 0.8, .seams = Seams::Rectangles, .locked = flag(atlas, {2})};
-  const RefineResult result = refine(atlas, options);
-  EXPECT_EQ(result.intervention, Intervention::Squeezed);
-  ASSERT_EQ(result.fallbacks.size(), 1u);
-  EXPECT_NE(result.fallbacks[0].find("locked"), std::string::npos);
-  expect_locked(atlas, result, options);
+  for (const Cut cut : {Cut::Split, Cut::Edges}) {
+    const RefineOptions options{.pe_bound = 0.8, .seams = Seams::Rectangles, .cut = cut, .locked = flag(atlas, {2})};
+    const RefineResult result = refine(atlas, options);
+    EXPECT_EQ(result.intervention, Intervention::Cut);
+    const Atlas out = testing::output(atlas, result);
+    const Validity validity = validate(out);
+    EXPECT_TRUE(validity.valid()) << validity.problem;
+    EXPECT_GE(result.after.pe_fixed_aspect, 0.8);
+    // The locked chart keeps every corner, bit for bit; nothing leaves the texture.
+    const std::vector<int> chart_of = chart_of_faces(atlas);
+    std::vector<Vec2> kept;
+    for (int f = 0; f < out.face_count(); ++f) {
+      const int source = result.cut ? result.cut->face_sources[f] : f;
+      for (int c = out.face_offsets[f]; c < out.face_offsets[f + 1]; ++c) {
+        EXPECT_GE(out.corner_uvs[c].minCoeff(), 0);
+        EXPECT_LE(out.corner_uvs[c].maxCoeff(), 1);
+        if (chart_of[source] == 2) kept.push_back(out.corner_uvs[c]);
+      }
+    }
+    std::vector<Vec2> before;
+    for (int f = 0; f < atlas.face_count(); ++f) {
+      for (int c = atlas.face_offsets[f]; chart_of[f] == 2 && c < atlas.face_offsets[f + 1]; ++c)
+        before.push_back(atlas.corner_uvs[c]);
+    }
+    EXPECT_TRUE(testing::same_bits(kept, before));
+  }
 }
 
 TEST(Locked, TheBitsDoNotDependOnTheThreads) {

@@ -11,27 +11,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979;
 
-/// A cone, rolled out in the UVs to half a square; its tip is a whole column of vertices, each one at the same place.
-Atlas cone(int count) {
-  std::vector<Vec3> positions;
-  std::vector<std::vector<int>> faces;
-  for (int j = 0; j <= count; ++j) {
-    for (int i = 0; i <= count; ++i) positions.push_back(Vec3(i, j, 0) / count);
-  }
-  for (int j = 0; j < count; ++j) {
-    for (int i = 0; i + j < count; ++i) {
-      const int v = j * (count + 1) + i;
-      faces.push_back({v, v + 1, v + count + 2, v + count + 1});
-    }
-  }
-  Atlas atlas = flat_atlas(positions, faces);
-  for (Vec3& p : atlas.positions) {
-    const double x = p.x(), turn = 1.5 * kPi * p.y();
-    p = Vec3(x * std::cos(turn), x * std::sin(turn), x);
-  }
-  return atlas;
-}
-
 /// A polygon of many corners that is a single point in space.
 Atlas polygon_without_size(int corners) {
   std::vector<Vec3> positions;

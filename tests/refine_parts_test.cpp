@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <limits>
+#include <set>
 
 #include "atlas_refine/refine.h"
 #include "shapes.h"
@@ -165,6 +166,48 @@ TEST(Stacks, AreCutAlike) {
   for (int f = 0; f < faces; ++f) EXPECT_EQ(result.cut->face_sources[f] + one.face_count(), result.cut->face_sources[faces + f]);
 }
 
+/// Every corner of the cut is a mean of corners of its own face, where its vertex lies, and no face names a vertex twice.
+void expect_whole_cut(const Atlas& atlas, const CutMesh& cut) {
+  const auto old = static_cast<int>(atlas.positions.size());
+  const auto position = [&](int corner) { return atlas.positions[atlas.corner_vertices[corner]]; };
+  for (std::size_t f = 0; f < cut.face_sources.size(); ++f) {
+    const int face = cut.face_sources[f];
+    std::set<int> vertices;
+    for (int c = cut.face_offsets[f]; c < cut.face_offsets[f + 1]; ++c) {
+      EXPECT_TRUE(vertices.insert(cut.corner_vertices[c]).second) << "face " << face;
+      Vec3 mean = Vec3::Zero();
+      for (int k = 0; k < 3; ++k) {
+        const int source = cut.corner_sources[c][k];
+        ASSERT_GE(source, atlas.face_offsets[face]);
+        ASSERT_LT(source, atlas.face_offsets[face + 1]);
+        mean += cut.corner_weights[c][k] * position(source);
+      }
+      if (cut.corner_vertices[c] < old) continue;
+      const NewVertex& vertex = cut.new_vertices[cut.corner_vertices[c] - old];
+      for (int k = 0; k < 3; ++k) mean -= vertex.weights[k] * position(vertex.corners[k]);
+      EXPECT_LT(mean.norm(), 1e-12);
+    }
+  }
+}
+
+TEST(Stacks, ChartsOfWhichOneHasATipAreCutAlike) {
+  // The tip is many vertices at one place: edges from them are one edge in space on the cone, and several on the sheet.
+  const Atlas tip = cone(8);
+  Atlas flat = tip;
+  for (int c = 0; c < flat.corner_count(); ++c)
+    flat.positions[flat.corner_vertices[c]] = {flat.corner_uvs[c].x(), flat.corner_uvs[c].y(), 0};
+  for (const std::vector<Atlas>& charts : {std::vector{tip, flat}, {flat, tip}, {tip, tip}, {tip, flat, tip}}) {
+    const Atlas atlas = shapes::combine(charts);
+    const RefineResult result = refine(atlas, {.pe_bound = 0.8, .seams = Seams::Rectangles});
+    EXPECT_EQ(result.charts[1].fate, Fate::Stacked);
+    ASSERT_EQ(result.intervention, Intervention::Cut);
+    ASSERT_TRUE(result.cut);
+    expect_whole_cut(atlas, *result.cut);
+    const std::set<std::array<int, 2>> seams(result.cut->new_seams.begin(), result.cut->new_seams.end());
+    EXPECT_EQ(seams.size(), result.cut->new_seams.size()) << "a seam is named twice";
+  }
+}
+
 TEST(Stacks, AreSeparatedWhereAsked) {
   const Atlas one = star();
   const Atlas atlas = shapes::combine({one, one});
@@ -203,6 +246,79 @@ TEST(Groups, EachHasABoxOfItsOwnAtTheSamePlace) {
     EXPECT_GE(m.pe, 0.8);
     EXPECT_EQ(std::max(m.box_width, m.box_height), 1);
   }
+}
+
+TEST(Groups, OneThatCannotReachTheBoundKeepsItsUVsAndTheOthersAreRefined) {
+  const Atlas one = star(), sliver = flat_atlas({{0, 0, 0}, {1, 0, 0}, {0, 0.1, 0}}, {{0, 1, 2}});
+  const Atlas atlas = shapes::combine({one, sliver, one});
+  RefineOptions options{.pe_bound = 0.8};
+  options.groups.assign(atlas.face_count(), 0);
+  options.groups[one.face_count()] = 1;
+  std::fill(options.groups.begin() + one.face_count() + 1, options.groups.end(), 2);
+  options.group_names = {"bark", "glass", "leaf"};
+  for (const Seams seams : {Seams::None, Seams::Rectangles}) {
+    options.seams = seams;
+    const RefineResult result = refine(atlas, options);
+    EXPECT_FALSE(result.bound_met);
+    ASSERT_EQ(result.groups.size(), 3u);
+    for (const int refined : {0, 2}) {
+      EXPECT_TRUE(result.groups[refined].bound_met);
+      EXPECT_TRUE(result.groups[refined].reason.empty());
+      EXPECT_GE(result.groups[refined].after.pe, 0.8);
+    }
+    EXPECT_FALSE(result.groups[1].bound_met);
+    EXPECT_EQ(result.groups[1].intervention, Intervention::Unchanged);
+    EXPECT_NE(result.groups[1].reason.find("the bound 0.8 was not reached"), std::string::npos) << result.groups[1].reason;
+    EXPECT_TRUE(says(result.warnings, "glass: keeps its UVs: the bound 0.8"));
+    if (!result.cut) {
+      EXPECT_TRUE(kept_bits(atlas, result, one.corner_count(), one.corner_count() + 3));
+    }
+  }
+}
+
+TEST(Groups, WhereNoneReachesTheBoundTheFirstIsNamed) {
+  const Atlas sliver = flat_atlas({{0, 0, 0}, {1, 0, 0}, {0, 0.1, 0}}, {{0, 1, 2}});
+  try {
+    refine(shapes::combine({sliver, sliver}), {.groups = {0, 1}, .group_names = {"glass", "steel"}});
+    FAIL();
+  } catch (const RefineError& error) {
+    EXPECT_EQ(error.code(), ErrorCode::BoundNotReached);
+    EXPECT_TRUE(std::string(error.what()).starts_with("glass: ")) << error.what();
+  }
+}
+
+TEST(Meshes, ThoseThatLieAtOnePlaceShareNoChartAndNoCut) {
+  // Two models that abut in space and in the UVs, as the levels of detail of one do.
+  const Atlas one = shapes::quad_grid(8, 2);
+  Atlas other = one;
+  const double width = one.positions.back().x() - one.positions.front().x();
+  for (Vec3& p : other.positions) p.x() = 2 * width - p.x();
+  Atlas atlas{.name = "",
+              .positions = one.positions,
+              .face_offsets = one.face_offsets,
+              .corner_vertices = one.corner_vertices,
+              .corner_uvs = one.corner_uvs};
+  const int vertices = static_cast<int>(one.positions.size());
+  atlas.positions.insert(atlas.positions.end(), other.positions.begin(), other.positions.end());
+  double far = 0;
+  for (const Vec2& uv : one.corner_uvs) far = std::max(far, uv.x());
+  for (int f = 0; f < other.face_count(); ++f) {
+    for (int c = other.face_offsets[f + 1]; c-- > other.face_offsets[f];) {
+      atlas.corner_vertices.push_back(vertices + other.corner_vertices[c]);
+      atlas.corner_uvs.push_back({2 * far - other.corner_uvs[c].x(), other.corner_uvs[c].y()});
+    }
+    atlas.face_offsets.push_back(atlas.corner_count());
+  }
+  EXPECT_EQ(measure(atlas).chart_count, 1);
+  atlas.vertex_meshes.assign(2 * vertices, 0);
+  std::fill(atlas.vertex_meshes.begin() + vertices, atlas.vertex_meshes.end(), 1);
+  EXPECT_EQ(measure(atlas).chart_count, 2);
+  EXPECT_EQ(measure(atlas).seam_edges, 0);
+  const RefineResult result = refine(atlas, {.pe_bound = 0.9});
+  EXPECT_EQ(result.after.chart_count, 2);
+  EXPECT_EQ(result.after.seam_edges, 0);
+  atlas.vertex_meshes.pop_back();
+  EXPECT_THROW(refine(atlas, {}), RefineError);
 }
 
 TEST(Groups, TilesStayWhereTheyAre) {

@@ -3,9 +3,10 @@
 
 #include "geometry/convex_polygon.h"
 #include "geometry/predicates.h"
+#include "output_atlas.h"
 #include "refine_checks.h"
 #include "shapes.h"
-#include "small_atlases.h"
+#include "sheets.h"
 #include "support/rng.h"
 
 namespace atlas_refine {
@@ -200,6 +201,49 @@ TEST(RefinePolygons, ThreadsDoNotChangeTheResult) {
     options.threads = 3;
     const RefineResult three = refine(shapes::quad_band(24, 4), options);
     EXPECT_EQ(one.corner_uvs, three.corner_uvs);
+  }
+}
+
+/// A sheet of quads in which 3 x 3 are one polygon with a hole in its middle, reached along an edge to and fro.
+Atlas sheet_with_keyhole(bool mirrored) {
+  const Atlas whole = sheet(9, 6);
+  Atlas atlas{whole.name, whole.positions, {0}, {}, {}};
+  for (int f = 0; f < whole.face_count(); ++f) {
+    const int column = f % 9, row = f / 9;
+    if (column < 3 || column > 5 || row < 2 || row > 4) add_double(atlas, whole, f, false);
+  }
+  const auto vertex = [](int i, int j) { return j * 10 + i; };
+  std::vector<int> face;
+  for (int i = 3; i < 6; ++i) face.push_back(vertex(i, 2));
+  for (int j = 2; j < 5; ++j) face.push_back(vertex(6, j));
+  for (int i = 6; i > 3; --i) face.push_back(vertex(i, 5));
+  for (int j = 5; j > 1; --j) face.push_back(vertex(3, j));
+  for (const int v : {vertex(4, 3), vertex(4, 4), vertex(5, 4), vertex(5, 3), vertex(4, 3)}) face.push_back(v);
+  std::vector<Vec2> uvs;
+  for (const int v : face) uvs.push_back(whole.positions[v].head<2>());
+  add_face(atlas, face, uvs);
+  for (Vec3& p : atlas.positions) p.z() = 0.05 * std::sin(7 * p.x()) * std::sin(5 * p.y());
+  for (Vec2& uv : atlas.corner_uvs) uv = Vec2((mirrored ? -1 : 1) * uv.x(), uv.y() + uv.x() * uv.x());
+  return atlas;
+}
+
+TEST(RefinePolygons, AKeyholeTakesPartAsARing) {
+  for (const bool mirrored : {false, true}) {
+    const Atlas atlas = sheet_with_keyhole(mirrored);
+    const ChartSet set = split_charts(atlas);
+    ASSERT_EQ(set.charts.size(), 1);
+    EXPECT_TRUE(set.defects.empty());
+    EXPECT_EQ(set.charts[0].boundary_loops.size(), 2);
+    EXPECT_EQ(set.charts[0].boundary_loops[1].size(), 4);
+    EXPECT_EQ(set.seam_edges, 0);
+    EXPECT_TRUE(validate(atlas).valid()) << validate(atlas).problem;
+    testing::refine_soundly(atlas, {.pe_bound = 0.85});
+    for (const Cut cut : {Cut::Split, Cut::Edges}) {
+      const RefineResult result = refine(atlas, {.pe_bound = 0.85, .seams = Seams::Rectangles, .cut = cut});
+      const Validity validity = validate(testing::output(atlas, result));
+      EXPECT_TRUE(validity.valid()) << validity.problem;
+      EXPECT_TRUE(result.bound_met);
+    }
   }
 }
 

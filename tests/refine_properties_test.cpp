@@ -5,6 +5,8 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "output_atlas.h"
 #include "refine_checks.h"
@@ -114,6 +116,45 @@ TEST_P(Properties, QuarterTurnsOfTheUvsDoNotMatter) {
 
 TEST_P(Properties, TheOrderOfFacesAndVerticesDoesNotMatter) {
   for (const std::uint64_t seed : {1, 2}) expect_same(permuted(sample(), seed), kOtherWay);
+}
+
+/// Charts that moving alone brings to the bound only in some of the layouts that a search meets.
+Atlas near_the_edge() {
+  std::vector<Atlas> charts;
+  for (int k = 0; k < 6; ++k)
+    charts.push_back(
+        shapes::mesh(shapes::transformed(shapes::random_star_polygon(20 + k, 12), 0.4 + 0.1 * k, 0.7 * k, {2.0 * k, 0}), 0.2));
+  return shapes::combine(charts);
+}
+
+/// What a packing is told by.
+std::pair<Intervention, double> moved_to(const Atlas& atlas, double bound) {
+  const RefineResult result = refine(atlas, {.pe_bound = bound});
+  return {result.intervention, result.after.pe};
+}
+
+TEST(Packing, WhetherMovingIsEnoughDoesNotDependOnTurnsUnitsAndOrders) {
+  const Atlas atlas = near_the_edge();
+  // The highest bound that moving alone is found to hold, to a thousandth.
+  double bound = 0.6;
+  while (moved_to(atlas, bound + 0.001).first == Intervention::Moved) bound += 0.001;
+  const auto [intervention, pe] = moved_to(atlas, bound);
+  ASSERT_EQ(intervention, Intervention::Moved);
+  const auto expect_the_same = [&](const Atlas& changed, const char* what) {
+    const auto [own, own_pe] = moved_to(changed, bound);
+    EXPECT_EQ(own, intervention) << what;
+    EXPECT_NEAR(own_pe, pe, 1e-6) << what;
+  };
+  expect_the_same(with_uvs(atlas, [](const Vec2& uv) { return Vec2(-uv.y(), uv.x()); }), "a quarter turn");
+  expect_the_same(with_uvs(atlas, [](const Vec2& uv) { return Vec2(-uv); }), "a half turn");
+  expect_the_same(with_uvs(atlas, [](const Vec2& uv) { return Vec2(uv.y(), -uv.x()); }), "three quarter turns");
+  for (const double scale : {1e-6, 1e6}) {
+    expect_the_same(with_uvs(atlas, [&](const Vec2& uv) { return Vec2(scale * uv); }), "a scale of the UVs");
+    expect_the_same(with_positions(atlas, [&](const Vec3& p) { return Vec3(scale * p); }), "a scale of the surface");
+  }
+  expect_the_same(with_uvs(atlas, [](const Vec2& uv) { return Vec2(uv + Vec2(100, -100)); }), "far UVs");
+  expect_the_same(with_positions(atlas, [](const Vec3& p) { return Vec3(p + Vec3(100, -100, 100)); }), "a far surface");
+  for (const std::uint64_t seed : {1, 2, 3}) expect_the_same(permuted(atlas, seed), "another order");
 }
 
 INSTANTIATE_TEST_SUITE_P(Roads, Properties, ::testing::Values(with_seams(Seams::None), with_seams(Seams::Rectangles)),

@@ -1,6 +1,8 @@
 // Atlases of a few faces, written out by hand.
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "atlas_refine/atlas.h"
@@ -35,6 +37,27 @@ inline Atlas strip(int quads) {
   }
   for (int i = 0; i < quads; ++i) faces.push_back({2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
   return flat_atlas(positions, faces);
+}
+
+/// A cone, rolled out in the UVs to half a square; its tip is a whole column of vertices, each one at the same place.
+inline Atlas cone(int count) {
+  std::vector<Vec3> positions;
+  std::vector<std::vector<int>> faces;
+  for (int j = 0; j <= count; ++j) {
+    for (int i = 0; i <= count; ++i) positions.push_back(Vec3(i, j, 0) / count);
+  }
+  for (int j = 0; j < count; ++j) {
+    for (int i = 0; i + j < count; ++i) {
+      const int v = j * (count + 1) + i;
+      faces.push_back({v, v + 1, v + count + 2, v + count + 1});
+    }
+  }
+  Atlas atlas = flat_atlas(positions, faces);
+  for (Vec3& p : atlas.positions) {
+    const double x = p.x(), turn = 1.5 * std::numbers::pi * p.y();
+    p = Vec3(x * std::cos(turn), x * std::sin(turn), x);
+  }
+  return atlas;
 }
 
 /// Adds `by` to the UVs of one face.

@@ -203,6 +203,7 @@ void bind_repairs_and_groups(py::module_& module) {
       .field("charts", &GroupReport::charts)
       .property("intervention", [](const GroupReport& group) { return to_string(group.intervention); })
       .field("bound_met", &GroupReport::bound_met)
+      .field("reason", &GroupReport::reason)
       .field("before", &GroupReport::before)
       .field("after", &GroupReport::after)
       .field("gap", &GroupReport::gap);

@@ -20,7 +20,10 @@ bool divides_nothing(const CutMesh& cut, const Atlas& atlas) {
 
 void Collection::add(const std::filesystem::path& path) {
   std::unique_ptr<const io::MeshFile> mesh = io::read_mesh_file(path);
-  if (files_.size() == 1 && atlas_.face_offsets.empty()) atlas_ = atlas_of(0);
+  if (files_.size() == 1 && atlas_.face_offsets.empty()) {
+    atlas_ = atlas_of(0);
+    atlas_.vertex_meshes.assign(atlas_.positions.size(), 0);
+  }
   const auto vertices = static_cast<int>(atlas_.positions.size());
   const int faces = atlas_.face_count(), corners = atlas_.corner_count();
   if (!files_.empty()) {
@@ -28,6 +31,7 @@ void Collection::add(const std::filesystem::path& path) {
     if (added.corner_vertices.size() > static_cast<std::size_t>(std::numeric_limits<int>::max() - corners))
       throw io::InputError(path, "has more face corners than this program can count");
     atlas_.positions.insert(atlas_.positions.end(), added.positions.begin(), added.positions.end());
+    atlas_.vertex_meshes.resize(atlas_.positions.size(), static_cast<int>(files_.size()));
     for (int f = 1; f <= added.face_count(); ++f) atlas_.face_offsets.push_back(corners + added.face_offsets[f]);
     for (int vertex : added.corner_vertices) atlas_.corner_vertices.push_back(vertices + vertex);
     atlas_.corner_uvs.insert(atlas_.corner_uvs.end(), added.corner_uvs.begin(), added.corner_uvs.end());
@@ -141,23 +145,20 @@ Collection::Part Collection::part(const File& file, const RefineResult& result) 
   return part;
 }
 
-// Faces `first` to `last` of the whole cut, in the numbers of the file. New vertices keep their order; one that lies between two
-// files is there in both.
+// Faces `first` to `last` of the whole cut, in the numbers of the file. New vertices keep their order; none is of two files.
 CutMesh Collection::cut_of(const File& file, const CutMesh& whole, std::size_t first, std::size_t last) const {
   const auto all_vertices = static_cast<int>(atlas().positions.size());
   const auto own_vertices = static_cast<int>(file.mesh->atlas().positions.size());
   const int begin = whole.face_offsets[first], end = whole.face_offsets[last];
-  std::vector<int> corner_of_vertex(whole.new_vertices.size(), -1);
-  for (int c = begin; c < end; ++c) {
-    const int vertex = whole.corner_vertices[c];
-    if (vertex >= all_vertices) corner_of_vertex[vertex - all_vertices] = c;
-  }
+  const int end_corner = file.first_corner + file.mesh->atlas().corner_count();
   CutMesh cut;
   std::vector<int> own_index(whole.new_vertices.size(), -1);
   for (std::size_t k = 0; k < own_index.size(); ++k) {
-    if (corner_of_vertex[k] < 0) continue;
+    NewVertex vertex = whole.new_vertices[k];
+    if (vertex.corners[0] < file.first_corner || vertex.corners[0] >= end_corner) continue;
+    for (int& corner : vertex.corners) corner -= file.first_corner;
     own_index[k] = own_vertices + static_cast<int>(cut.new_vertices.size());
-    cut.new_vertices.push_back(in_file(file, whole, static_cast<int>(k), corner_of_vertex[k]));
+    cut.new_vertices.push_back(vertex);
   }
   cut.face_offsets.push_back(0);
   for (std::size_t face = first; face < last; ++face) {
@@ -172,16 +173,6 @@ CutMesh Collection::cut_of(const File& file, const CutMesh& whole, std::size_t f
     cut.corner_weights.push_back(whole.corner_weights[c]);
   }
   return cut;
-}
-
-// A vertex between two files is, in the one that does not hold its corners, the mean that `corner` of that file is.
-NewVertex Collection::in_file(const File& file, const CutMesh& whole, int vertex, int corner) const {
-  NewVertex own = whole.new_vertices[vertex];
-  const int end = file.first_corner + file.mesh->atlas().corner_count();
-  if (own.corners[0] < file.first_corner || own.corners[0] >= end)
-    own = {whole.corner_sources[corner], whole.corner_weights[corner]};
-  for (int& own_corner : own.corners) own_corner -= file.first_corner;
-  return own;
 }
 
 }  // namespace atlas_refine::cli

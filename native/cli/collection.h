@@ -75,7 +75,6 @@ class Collection {
   std::vector<int> faces_of_atlas() const;
   Part part(const File& file, const RefineResult& result) const;
   CutMesh cut_of(const File& file, const CutMesh& whole, std::size_t first, std::size_t last) const;
-  NewVertex in_file(const File& file, const CutMesh& whole, int vertex, int corner) const;
 
   std::vector<File> files_;
   Atlas atlas_;

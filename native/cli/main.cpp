@@ -1,4 +1,5 @@
 // The program atlas-refine: mesh files in, the same files with a better atlas out.
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -154,6 +155,17 @@ std::vector<FileReport> write_outputs(const CommandLine& line, const Collection&
   return reports;
 }
 
+/// Groups that keep their UVs because no result of them holds: all others are written.
+int complain_of_groups(const Collection& files, const RefineResult& result) {
+  const auto is_left = [](const GroupReport& group) { return !group.reason.empty(); };
+  const auto first = std::find_if(result.groups.begin(), result.groups.end(), is_left);
+  if (first == result.groups.end()) return exit_done;
+  const auto more = std::count_if(first + 1, result.groups.end(), is_left);
+  const std::string others = more == 0 ? "" : " (and " + std::to_string(more) + " more)";
+  return complain(files.place_of_face(-1) + ": " + first->name + others + " keeps its UVs, the rest is written: " + first->reason,
+                  exit_bound_not_reached);
+}
+
 int run_refine(CommandLine line) {
   check_outputs(line);
   Collection files;
@@ -183,7 +195,7 @@ int run_refine(CommandLine line) {
     }
     const std::vector<FileReport> reports = write_outputs(line, files, result, times);
     std::fputs(summary(reports, result, times).c_str(), stdout);
-    return exit_done;
+    return complain_of_groups(files, result);
   } catch (const RefineError& error) {
     return complain(error, files);
   }

@@ -121,10 +121,15 @@ Json to_json(const Repair& repair) {
 }
 
 Json to_json(const GroupReport& group) {
-  return {{"group", group.group},          {"name", group.name},
-          {"charts", group.charts},        {"intervention", to_string(group.intervention)},
-          {"bound_met", group.bound_met},  {"before", to_json(group.before)},
-          {"after", to_json(group.after)}, {"gap", to_json(group.gap)}};
+  return {{"group", group.group},
+          {"name", group.name},
+          {"charts", group.charts},
+          {"intervention", to_string(group.intervention)},
+          {"bound_met", group.bound_met},
+          {"reason", group.reason.empty() ? Json() : Json(group.reason)},
+          {"before", to_json(group.before)},
+          {"after", to_json(group.after)},
+          {"gap", to_json(group.gap)}};
 }
 
 template <class Entry>

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "atlas_refine/error.h"
 #include "io/input_file.h"
@@ -37,6 +39,37 @@ class LabelReader {
   FaceLabels labels_;
   std::unordered_map<std::string, int> numbers_;
 };
+
+/// Whether a polygon that comes to some vertices several times is loops of different vertices, three or more in each, joined by
+/// edges that it runs along to and fro: the way in which outlines with holes are written as one polygon.
+bool is_keyhole(std::vector<int> polygon) {
+  std::vector<std::vector<int>> open = {std::move(polygon)};
+  std::vector<int> seen;
+  while (!open.empty()) {
+    const std::vector<int> loop = std::move(open.back());
+    open.pop_back();
+    const auto n = static_cast<int>(loop.size());
+    std::map<std::pair<int, int>, int> edges;  // by their ends, where they start
+    bool parted = false;
+    for (int i = 0; i < n && !parted; ++i) {
+      const int from = loop[i], to = loop[(i + 1) % n];
+      if (const auto back = edges.find({to, from}); back != edges.end()) {
+        // ... from=b a=to ... : what lies between the two ways, and the rest.
+        const int j = back->second;
+        open.emplace_back(loop.begin() + j + 1, loop.begin() + i);
+        std::vector<int>& rest = open.emplace_back(loop.begin() + i + 1, loop.end());
+        rest.insert(rest.end(), loop.begin(), loop.begin() + j);
+        parted = true;
+      }
+      edges[{from, to}] = i;
+    }
+    if (parted) continue;
+    if (n < 3) return false;
+    seen.insert(seen.end(), loop.begin(), loop.end());
+  }
+  std::sort(seen.begin(), seen.end());
+  return std::adjacent_find(seen.begin(), seen.end()) == seen.end();
+}
 
 /// One pass, the places of everything that may be rewritten remembered.
 class ObjParser {
@@ -220,7 +253,10 @@ ObjText::Remark* ObjParser::reason_to_leave_out() {
   if (std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.uv < 0; })) return &obj_.left_out_without_uvs;
   if (std::any_of(corners_.begin(), corners_.end(), [&](const Corner& c) { return is_infinite(c.uv); }))
     return &obj_.left_out_infinite;
-  return distinct < static_cast<std::ptrdiff_t>(kept_.size()) ? &obj_.left_out_revisiting : nullptr;
+  if (distinct == static_cast<std::ptrdiff_t>(kept_.size())) return nullptr;
+  std::vector<int> vertices;
+  for (int k : kept_) vertices.push_back(corners_[k].vertex);
+  return is_keyhole(std::move(vertices)) ? nullptr : &obj_.left_out_revisiting;
 }
 
 bool ObjParser::is_infinite(int uv) const {

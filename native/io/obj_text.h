@@ -83,7 +83,7 @@ struct ObjText {
   Remark left_out_degenerate;  ///< fewer than three different vertices
   Remark left_out_without_uvs;
   Remark left_out_infinite;    ///< a UV is not finite
-  Remark left_out_revisiting;  ///< a vertex comes twice, and not in a row
+  Remark left_out_revisiting;  ///< a vertex comes twice, neither in a row nor at the bridge of a keyhole
 };
 
 }  // namespace atlas_refine::io

@@ -2,9 +2,11 @@
 #include "cut_plan.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "input/price_sides.h"
 #include "measure/certificate.h"
+#include "measure/distortion.h"
 #include "pack/place_charts.h"
 #include "reduce/goal.h"
 #include "reduce/reduce.h"
@@ -44,7 +46,7 @@ RepairedCharts with_positive_triangles(const Refinement& run) {
 void turn_kept(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts) {
   const PlaceOptions options{.rotate = run.options.rotate, .align_axes = run.options.align_axes};
   for (std::size_t c = 0; c < charts.size(); ++c) {
-    if (!bends(freedom, c) && needles_among({charts[c]}).empty())
+    if (!bends(freedom, c) && !is_fixed(freedom, c) && needles_among({charts[c]}).empty())
       charts[c] = place_charts({charts[c]}, options, run.monitor).front();
   }
 }
@@ -66,6 +68,28 @@ void align(const Refinement& run, CutPlan& plan) {
   }
   for (std::size_t c = 0; c < plan.aligned.size(); ++c) {
     for (Vec2& uv : plan.aligned[c].mesh.uvs) uv *= wanted[c];
+  }
+}
+
+/// Locked charts are as large in the layout as they will be: all others together are to cover what the bound leaves them of the
+/// texture.
+void scale_fixed(const Refinement& run, CutPlan& plan) {
+  if (!any_fixed(plan.freedom)) return;
+  constexpr double kLeastShare = 0.01;
+  const Box texture{Vec2::Zero(), Vec2(run.options.box_aspect, 1)};
+  double taken = 0, others = 0;
+  for (std::size_t c = 0; c < plan.charts.size(); ++c) {
+    if (is_fixed(plan.freedom, c)) {
+      taken += area_within(plan.charts[c], texture);
+    } else {
+      others += uv_area(plan.charts[c]);
+    }
+  }
+  const double free = std::max(kLeastShare * texture.area(), run.options.pe_bound * texture.area() - taken);
+  for (std::size_t c = 0; c < plan.charts.size(); ++c) {
+    if (!is_fixed(plan.freedom, c)) continue;
+    plan.aligned[c].mesh.uvs = plan.charts[c].uvs;
+    for (Vec2& uv : plan.aligned[c].mesh.uvs) uv *= std::sqrt(others / free);
   }
 }
 
@@ -107,6 +131,7 @@ CutPlan plan_cuts(const Refinement& run, const ProgressRange& range) {
   if (options.cut == Cut::Split) turn_kept(run, plan.freedom, plan.charts);
   plan.prices = price_sides(run.input.atlas, run.input.set, options);
   align(run, plan);
+  scale_fixed(run, plan);
   refer_to_input(repaired.atlas, plan.aligned);
   plan.sources = charts_before_opening(run, repaired.atlas, plan.charts);
   plan.atlas = with_uvs(std::move(repaired.atlas), uvs_of(plan.charts));

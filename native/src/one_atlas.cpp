@@ -202,6 +202,14 @@ void warn_of_polygons(const CertifiedAtlas& result, Journal& journal) {
 
 }  // namespace
 
+Outcome left_as_it_is(const InputAtlas& input, const RefineOptions& options, std::string reason) {
+  Outcome out = unchanged(input, options);
+  out.bound_met = false;
+  out.gap = Gap{std::min(Gap{}.value, input.measures.gap_between)};
+  out.reason = std::move(reason);
+  return out;
+}
+
 Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const ProgressRange& range, Monitor& monitor,
                    Journal& journal) {
   note_mirrored(input, journal);

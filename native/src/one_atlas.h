@@ -10,4 +10,7 @@ namespace atlas_refine {
 Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const ProgressRange& range, Monitor& monitor,
                    Journal& journal);
 
+/// With the input's UVs, as one of several atlases of which others can be refined.
+Outcome left_as_it_is(const InputAtlas& input, const RefineOptions& options, std::string reason);
+
 }  // namespace atlas_refine

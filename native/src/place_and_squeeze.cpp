@@ -174,14 +174,6 @@ void require_no_needles(const std::vector<Chart>& pieces) {
   if (!needles.charts.empty()) throw needles;
 }
 
-Freedoms freedom_of_pieces(const Refinement& run, const CutAtlas& atlas) {
-  const Freedoms of_charts = freedom_of(run.input.set, run.options);
-  Freedoms out;
-  if (of_charts.empty()) return out;
-  for (const Piece& piece : atlas.pieces) out.push_back(of_charts[piece.chart]);
-  return out;
-}
-
 }  // namespace
 
 bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare) {
@@ -192,7 +184,7 @@ bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare
 
 Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool keeps_place, const ProgressRange& range) {
   const RefineOptions& options = run.options;
-  const Freedoms freedom = freedom_of_pieces(run, atlas);
+  const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), atlas);
   const auto points = points_in_space(atlas, run.input.set.points);
   std::vector<Chart> pieces = meshes_of(atlas);
   run.journal.begin_stage("pack", range.part(0, 0.25));
@@ -224,7 +216,7 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
 }
 
 std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas& atlas, bool keeps_place, double most) {
-  const Freedoms freedom = freedom_of_pieces(run, atlas);
+  const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), atlas);
   const std::vector<Chart> pieces = meshes_of(atlas);
   const std::vector<Gap> gaps = gaps_of(run, pieces, freedom);
   // The artist's layout spares a packing.

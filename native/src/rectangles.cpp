@@ -15,6 +15,7 @@
 #include "layout/trail_paths.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
+#include "place_and_squeeze.h"
 #include "rectangle_pictures.h"
 #include "reduce/goal.h"
 #include "reduce/reduce.h"
@@ -83,7 +84,7 @@ void tell(const Refinement& run, const CutPlan& plan, const CutAtlas& cut, const
   if (layout.extra_corners > 0)
     journal.fallbacks.push_back("the bound was missed with the charts' own corners; " + std::to_string(layout.extra_corners) +
                                 " were added to each chart");
-  if (!run.options.gap && layout.gap.value < Gap{}.value)
+  if (!any_fixed(freedom) && !run.options.gap && layout.gap.value < Gap{}.value)
     journal.warnings.push_back("the gap was reduced from " + number_text("%g", Gap{}.value) + " to " +
                                number_text("%g", layout.gap.value) +
                                " of the box diagonal: no layout holds the bound with a larger one");
@@ -117,11 +118,7 @@ void place(const Refinement& run, const Layout& layout, CutAtlas& cut) {
 /// Moves the pieces to less distortion under the bound.
 ReduceResult reduce(const Refinement& run, const Gap& gap, double least_change, double enough, CutAtlas& cut) {
   const std::vector<Chart> pieces = meshes_of(cut);
-  const Freedoms of_charts = freedom_of(run.input.set, run.options);
-  Freedoms freedom;
-  for (const Piece& piece : cut.pieces) {
-    if (!of_charts.empty()) freedom.push_back(of_charts[piece.chart]);
-  }
+  const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), cut);
   const ReduceProblem problem{.charts = pieces,
                               .objective = goal_of(run.input.set.charts, cut, run.options),
                               .gap = gap,
@@ -152,17 +149,38 @@ void restore(const std::vector<Chart>& charts, const Freedoms& freedom, CutAtlas
 /// Why this road is not taken with charts that are not to be touched; empty where it is.
 std::string obstacle(const Refinement& run) {
   const Freedoms freedom = freedom_of(run.input.set, run.options);
-  if (any_fixed(freedom)) return "some are locked, and parts cannot be placed around them";
   const bool kept = std::find(freedom.begin(), freedom.end(), Freedom::Moves) != freedom.end();
   if (kept && run.options.cut == Cut::Split && run.options.rotate == Rotate::None)
     return "some keep their shapes, and must not be turned";
   return "";
 }
 
+/// A layout of rectangles has no place for charts that are locked in the texture: the pieces are placed around them by their
+/// outlines, and squeezed.
+Attempt place_around_locked(const Refinement& run, const CutPlan& plan, CutAtlas cut, const ProgressRange& range) {
+  for (Piece& piece : cut.pieces) {
+    for (int v = 0; v < piece.mesh.vertex_count() && is_fixed(plan.freedom, piece.chart); ++v)
+      piece.mesh.uvs[v] = value_at(piece.supports[v], run.input.set.charts[piece.chart].uvs);
+    drop_broken_guards(piece.mesh);
+  }
+  restore(plan.sources, plan.freedom, cut);
+  RefineOptions options = run.options;
+  options.relax = options.relax || !options.rectangles.until_input;
+  Solution out = place_and_squeeze({run.input, options, run.monitor, run.journal, run.threads}, cut, false, range);
+  if (!holds_bound(run, {.charts = meshes_of(out.atlas), .frame = out.atlas.frame}))
+    return {.failure = "cut and placed around the locked ones, they do not reach the bound"};
+  out.intervention = Intervention::Cut;
+  out.re_embedded = plan.mended;
+  out.rectangles = report_of(plan);
+  tell(run, plan, out.atlas, *out.rectangles);
+  return {.solution = std::move(out)};
+}
+
 Attempt cut_across_faces(const Refinement& run, const CutPlan& plan, const ProgressRange& range) {
   const Gap& gap = plan.layout.gap;
   Solution out{.intervention = Intervention::Cut, .atlas = cut_along_trails(run, plan)};
   if (out.atlas.seams.empty()) return {.needless = true};
+  if (any_fixed(plan.freedom)) return place_around_locked(run, plan, std::move(out.atlas), range);
   place(run, plan.layout, out.atlas);
   const Validity start = certify_charts(meshes_of(out.atlas));
   if (!start.valid()) return {.failure = "in their layout " + start.problem};

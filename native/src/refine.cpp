@@ -28,9 +28,16 @@ Vec2 origin_of(const Part& part, const RefineOptions& options) {
   return given ? options.group_origins[part.group] : Vec2(Vec2::Zero());
 }
 
-/// One atlas, without the charts that cannot be made valid: those are left as they are. Nothing where none remains.
+RefineError named(const RefineError& error, const Part& part, const RefineOptions& options) {
+  if (options.groups.empty()) return error;
+  return {error.code(), error.stage(), name_of(part.group, options) + ": " + error.what(), error.chart(), error.face()};
+}
+
+/// One atlas, without the charts that cannot be made valid: those are left as they are. Nothing where none remains. Where no
+/// result of it holds and `failure` is given, it stays as it is, and that says why.
 std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOptions& options, const ProgressRange& range,
-                                       Monitor& monitor, Journal& journal, Part& part, std::vector<LeftChart>& left) {
+                                       Monitor& monitor, Journal& journal, Part& part, std::vector<LeftChart>& left,
+                                       std::optional<RefineError>& failure) {
   const Journal::Mark mark = journal.mark();
   while (!part.charts.empty()) {
     InputAtlas input = part_of(whole, part.charts, options.box_aspect);
@@ -39,9 +46,11 @@ std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOpti
     try {
       return refine_one(input, options, range, monitor, journal);
     } catch (const RefineError& error) {
-      if (options.groups.empty() || error.code() == ErrorCode::Cancelled) throw;
-      throw RefineError(error.code(), error.stage(), name_of(part.group, options) + ": " + error.what(), error.chart(),
-                        error.face());
+      if (error.code() == ErrorCode::Cancelled) throw;
+      if (!failure) failure = named(error, part, options);
+      journal.back_to(mark);
+      journal.warnings.push_back("keeps its UVs: " + std::string(error.what()));
+      return left_as_it_is(input, options, error.what());
     } catch (const UnmendedCharts& unmended) {
       journal.back_to(mark);
       for (const LeftChart& chart : unmended.charts) {
@@ -53,20 +62,25 @@ std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOpti
   return std::nullopt;
 }
 
-/// Each atlas by itself, one after the other; each has its part of the progress by its number of charts.
+/// Each atlas by itself, one after the other; each has its part of the progress by its number of charts. Those that fail stay
+/// as they are, unless all do.
 std::vector<Done> refine_parts(const InputAtlas& whole, Participants& participants, const RefineOptions& options,
                                Monitor& monitor, Journal& journal) {
   std::vector<Done> done;
   const double all = static_cast<double>(whole.set.charts.size() - participants.left.size() - participants.followers.size());
   double before = 0;
+  std::optional<RefineError> failure;  // the first
   for (Part& part : participants.parts) {
     const double after = before + static_cast<double>(part.charts.size()) / all;
     const Journal::Mark mark = journal.mark();
-    auto outcome = refine_mendable(whole, options, kAtlases.part(before, after), monitor, journal, part, participants.left);
+    auto outcome =
+        refine_mendable(whole, options, kAtlases.part(before, after), monitor, journal, part, participants.left, failure);
     if (outcome) done.push_back({part, std::move(*outcome)});
     if (participants.parts.size() > 1) journal.prefix_from(mark, name_of(part.group, options) + ": ");
     before = after;
   }
+  const auto failed = [](const Done& part) { return !part.outcome.reason.empty(); };
+  if (failure && std::all_of(done.begin(), done.end(), failed)) throw RefineError(*failure);
   if (done.empty() && !participants.parts.empty()) {
     const LeftChart& first = participants.left.back();
     throw RefineError(ErrorCode::BadInput, "repair",

@@ -68,7 +68,10 @@ class Joins:
     def _join_equal(self, keys):
         order, first, size = groups_of_equal(keys, np.flatnonzero(self.partner < 0))
         one, two = order[first[size == 2]], order[first[size == 2] + 1]
-        apart = (self.left[one] * self.left[two] < 0) & (self.face[one] != self.face[two])
+        bridge = (self.turned[one] != self.turned[two]) & (
+            self.obj.corner_vertex[self.low[one]] == self.obj.corner_vertex[self.low[two]]
+        )
+        apart = (self.left[one] * self.left[two] < 0) & ((self.face[one] != self.face[two]) | bridge)
         self._unite(one[apart], two[apart])
         for a, b in zip(one[~apart].tolist(), two[~apart].tolist(), strict=True):
             self._unite_unless_doubles(a, b)

@@ -64,6 +64,25 @@ def logical_lines(text):
         yield joined
 
 
+def is_outline(vertices):
+    """Whether a polygon is one loop of three different vertices or more, or several that it joins by edges walked to and fro."""
+    if len(set(vertices)) == len(vertices):
+        return len(vertices) >= 3
+    loops, seen = [vertices], []
+    while loops:
+        loop = loops.pop()
+        edges = list(zip(loop, loop[1:] + loop[:1], strict=True))
+        back = [(k, edges.index((b, a))) for k, (a, b) in enumerate(edges) if (b, a) in edges]
+        if back:
+            (k, other) = min(back)
+            loops += [loop[k + 1 : other], loop[other + 1 :] + loop[:k]]
+        elif len(loop) < 3:
+            return False
+        else:
+            seen += loop
+    return len(set(seen)) == len(seen)
+
+
 class Reader:
     def __init__(self):
         self.kept, self.positions, self.uvs = [], [], []
@@ -106,13 +125,14 @@ class Reader:
         return uv >= len(self.uvs) or all(map(math.isfinite, self.uvs[uv]))
 
     def face(self, corners):
-        """Whether the face is in the atlas: vertices named in a row count once, each comes once, and all corners have finite UVs."""
+        """Whether the face is in the atlas: vertices named in a row count once, each comes once but for bridges of keyholes, and all
+        corners have finite UVs."""
         vertices = [absolute(int(corner[0]), len(self.positions)) for corner in corners]
         own = [k for k, v in enumerate(vertices) if k == 0 or v != vertices[k - 1]]
         while len(own) > 1 and vertices[own[-1]] == vertices[own[0]]:
             own.pop()
         uvs = [self.uv_index(corner) for corner in corners]
-        if len(own) < 3 or len({vertices[k] for k in own}) < len(own) or min(uvs) < 0 or not all(map(self.is_finite, uvs)):
+        if not is_outline([vertices[k] for k in own]) or min(uvs) < 0 or not all(map(self.is_finite, uvs)):
             return False
         self.others_before.append(len(self.others))
         for k in own:

@@ -47,15 +47,15 @@ class ThreeModels : public Files {
     collection_.add(write("c.obj", "v 0 0 9\nv 1 0 9\nv 0 1 9\nvt 0 0\nf -3/-1 -2/-1 -1/-1\n"));
   }
 
-  /// The edge that a and b share gets a vertex, b's second face is divided, c stays whole.
+  /// On the edge that a and b share each gets a vertex of its own, b's second face is divided, c stays whole.
   RefineResult cut_result() const {
     RefineResult result;
     result.intervention = Intervention::Cut;
     CutMesh& cut = result.cut.emplace();
     cut.face_offsets = {0, 4, 8, 11, 14, 17};
-    cut.corner_vertices = {0, 1, 10, 2, 3, 10, 4, 5, 4, 6, 11, 4, 11, 5, 7, 8, 9};
+    cut.corner_vertices = {0, 1, 10, 2, 3, 11, 4, 5, 4, 6, 12, 4, 12, 5, 7, 8, 9};
     cut.face_sources = {0, 1, 2, 2, 3};
-    cut.new_vertices = {{{1, 2, 0}, Vec3(0.5, 0.5, 0)}, {{7, 8, 6}, Vec3(0.25, 0.75, 0)}};
+    cut.new_vertices = {{{1, 2, 0}, Vec3(0.5, 0.5, 0)}, {{3, 4, 5}, Vec3(0.5, 0.5, 0)}, {{7, 8, 6}, Vec3(0.25, 0.75, 0)}};
     io::add_corner_means(cut, collection_.atlas());
     for (int c = 0; c < 17; ++c) result.corner_uvs.emplace_back(c, -c);
     return result;
@@ -68,6 +68,7 @@ TEST_F(ThreeModels, AreConcatenated) {
   EXPECT_EQ(collection_.atlas().face_offsets, (std::vector<int>{0, 3, 6, 9, 12}));
   EXPECT_EQ(collection_.atlas().corner_vertices, (std::vector<int>{0, 1, 2, 3, 4, 5, 4, 6, 5, 7, 8, 9}));
   EXPECT_EQ(collection_.atlas().positions.size(), 10);
+  EXPECT_EQ(collection_.atlas().vertex_meshes, (std::vector<int>{0, 0, 0, 1, 1, 1, 1, 2, 2, 2}));
 }
 
 TEST_F(ThreeModels, AFaceIsNamedByFileAndLine) {
@@ -87,7 +88,7 @@ TEST_F(ThreeModels, EachFileGetsItsPartOfTheCut) {
   EXPECT_EQ(again.face_offsets, (std::vector<int>{0, 4, 7, 10}));
   EXPECT_EQ(again.corner_vertices, (std::vector<int>{0, 4, 1, 2, 1, 3, 5, 1, 5, 2}));
   EXPECT_EQ(again.corner_uvs, std::vector<Vec2>(result.corner_uvs.begin() + 4, result.corner_uvs.begin() + 14));
-  EXPECT_EQ(again.positions[4], Vec3(0.5, 0.5, 0)) << "the vertex on the shared edge is in both files";
+  EXPECT_EQ(again.positions[4], Vec3(0.5, 0.5, 0)) << "each file has a vertex on the shared edge";
   EXPECT_EQ(again.positions[5], Vec3(1.25, 0.75, 0));
   EXPECT_EQ(b.added_faces, 1);
   EXPECT_EQ(b.added_vertices, 2);

@@ -108,3 +108,21 @@ def test_triangulate(program, tmp_path):
     whole = [face for face in left if max(int(corner.split("/")[0]) for corner in face.split()[1:]) <= 13 * 13]
     assert left == whole  # what no cut crosses stays as it is
     assert len(left) < len(quads)
+
+
+def test_a_group_below_the_bound_keeps_its_uvs(program, tmp_path):
+    """The others are written; the exit code and one line tell of the one that is not refined."""
+    glass = "usemtl glass\nv 9 0 0\nv 10 0 0\nv 9 0.1 0\nvt 0.25 0.25\nvt 0.5 0.25\nvt 0.25 0.3\nf -3/-3 -2/-2 -1/-1\n"
+    source, target, report = (tmp_path / each for each in ("in.obj", "out.obj", "report.json"))
+    source.write_text("usemtl bark\n" + grid(4, 30).replace("usemtl material", "# material") + glass)
+    done = program(source, "-o", target, "--report", report, "--group-by", "material")
+    message = done.stderr.decode()
+    assert done.returncode == 4
+    assert message.count("\n") == 1
+    assert "material glass keeps its UVs, the rest is written: " in message
+    told = {group["name"]: group for group in json.loads(report.read_text())["groups"]}
+    assert told["material bark"]["bound_met"]
+    assert told["material bark"]["reason"] is None
+    assert not told["material glass"]["bound_met"]
+    assert "the bound 0.8 was not reached" in told["material glass"]["reason"]
+    assert set(uvs(target.read_text())) >= {(0.25, 0.25), (0.5, 0.25), (0.25, 0.3)}

@@ -104,3 +104,18 @@ def test_report_may_not_be_one_of_the_results(program, tmp_path, models):
     for place in (tmp_path / "out" / models[1].name, models[2]):
         (tmp_path / "out").mkdir(exist_ok=True)
         program.refused(2, *models, "-o", tmp_path / "out", "--report", place)
+
+
+def test_files_that_lie_at_one_place_share_no_chart(program, tmp_path):
+    """Two sheets side by side in the UVs as in space: as one file they were one chart."""
+    left, right, report = (tmp_path / name for name in ("left.obj", "right.obj", "r.json"))
+    left.write_text(grid(4))
+    shift = {"v": 1.0, "vt": 0.5}
+    words = [line.split() for line in grid(4).splitlines()]
+    moved = [[w[0], str(shift[w[0]] + float(w[1])), *w[2:]] if w[0] in shift else w for w in words]
+    right.write_text("\n".join(map(" ".join, moved)) + "\n")
+    run = program(left, right, "-o", tmp_path / "out", "--report", report, "--relax")
+    assert run.returncode == 0, run.stderr
+    told = json.loads(report.read_text())
+    assert told["before"]["chart_count"] == 2
+    assert told["before"]["seam_edges"] == 0

@@ -48,3 +48,26 @@ def test_importance_has_a_number_for_faces_left_out_too(program, tmp_path):
     assert f"there are {count} faces" in program.refused(3, source, "-o", target, "--importance", weights)
     weights.write_text("1\n" * count)
     assert program(source, "-o", target, "--importance", weights).returncode == 0
+
+
+@pytest.mark.parametrize("options", [[], ["--seams", "rectangles"], ["--seams", "rectangles", "--cut", "edges"]])
+def test_a_keyhole_takes_part(program, tmp_path, options):
+    """A square with a square hole as one polygon, which reaches the hole along an edge to and fro."""
+    square = [(0, 0), (3, 0), (3, 3), (0, 3), (1, 1), (1, 2), (2, 2), (2, 1)]
+    corners = [-8, -7, -6, -5, -8, -4, -3, -2, -1, -4]
+    source, target, report = (tmp_path / name for name in ("in.obj", "out.obj", "report.json"))
+    keyhole = [f"v {x} {y} 5" for x, y in square] + [f"vt {2 + x / 3} {y / 3}" for x, y in square]
+    keyhole.append("f " + " ".join(f"{k}/{k}" for k in corners))
+    source.write_text(grid(8, 30) + "\n".join(keyhole) + "\n")
+    run = program(source, "-o", target, "--report", report, *options)
+    assert run.returncode == 0, run.stderr
+    told = json.loads(report.read_text())
+    assert not [line for line in told["warnings"] if "left out" in line]
+    assert len(told["charts"]) == 2
+    assert told["after"]["pe"] >= 0.8
+    assert told["before"]["seam_edges"] == 0
+    if told["intervention"] != "cut":
+        kept = records(target.read_text(), "f")[-1].split()[1:]
+        assert [corner.split("/")[0] for corner in kept] == [str(k) for k in corners]
+        assert kept[0] == kept[4]
+        assert kept[5] == kept[9]

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
 #include "shapes.h"
@@ -49,6 +52,33 @@ TEST(TriangulatePolygon, CollinearCornersGiveNoEmptyTriangle) {
 
 TEST(TriangulatePolygon, RandomPolygons) {
   for (int seed = 0; seed < 50; ++seed) expect_good(shapes::random_polygon(seed).outer);
+}
+
+/// A square with a square hole, reached along an edge to and fro; corner 4 is corner 0 again, corner 9 is corner 5.
+std::vector<Vec2> keyhole() { return {{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}}; }
+
+TEST(TriangulatePolygon, AKeyholeIsOpenedAlongItsBridge) {
+  std::vector<Vec2> uvs = keyhole();
+  for (std::size_t start = 0; start < uvs.size(); ++start) {
+    expect_good(uvs);
+    std::rotate(uvs.begin(), uvs.begin() + 1, uvs.end());
+  }
+  // Each side of the polygon is a side of one triangle: corners at one place are told apart by the triangles around them.
+  std::set<std::pair<int, int>> sides;
+  for (const Triangle& t : *triangulate_polygon(uvs, lifted(uvs))) {
+    for (int k = 0; k < 3; ++k) EXPECT_TRUE(sides.emplace(t[k], t[(k + 1) % 3]).second);
+  }
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(sides.contains({i, (i + 1) % 10})) << i;
+}
+
+TEST(TriangulatePolygon, PolygonsThatComeToAPlaceTwice) {
+  expect_good({{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 2}, {2, 1}});  // a hole that touches the outline
+  expect_good({{0, 0}, {3, 0}, {3, 3}, {1, 1}, {3, 3}, {0, 3}});          // an edge that ends inside
+  const auto refused = [](const std::vector<Vec2>& uvs) { return !triangulate_polygon(uvs, lifted(uvs)).has_value(); };
+  EXPECT_TRUE(refused({{0, 0}, {3, 0}, {3, 3}, {4, 4}, {3, 3}, {0, 3}}));  // one that ends outside
+  EXPECT_TRUE(
+      refused({{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}}));  // a hole wound as the outline
+  EXPECT_TRUE(refused({{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {3, 0}, {3, 3}, {0, 3}}));          // twice around
 }
 
 TEST(TriangulatePolygon, AFoldInSpaceTakesTheOtherDiagonal) {

@@ -7,6 +7,7 @@
 #include "cut_checks.h"
 #include "geometry/convex_polygon.h"
 #include "sheets.h"
+#include "small_atlases.h"
 
 namespace atlas_refine {
 namespace {
@@ -56,6 +57,23 @@ TEST(CutFaces, CornersSourcesAndWeightsFitTogether) {
     for (int v : out.mesh.corner_vertices) ++used[v];
     for (std::size_t v = old_vertices; v < used.size(); ++v) EXPECT_GT(used[v], 0) << "a new vertex without a face";
   }
+}
+
+TEST(CutFaces, NoFaceNamesAVertexTwiceBesideAConesTip) {
+  // Two edges of one face from the tip's vertices are one edge in space: cut across, both get one new vertex, which is doubled.
+  const Atlas atlas = cone(8);
+  const CutFaces out = faces_of(testing::laid(atlas, 0.9));
+  const auto old_vertices = static_cast<int>(atlas.positions.size());
+  for (std::size_t f = 0; f < out.mesh.face_sources.size(); ++f) {
+    const auto begin = out.mesh.corner_vertices.begin();
+    std::set<int> vertices(begin + out.mesh.face_offsets[f], begin + out.mesh.face_offsets[f + 1]);
+    EXPECT_EQ(static_cast<int>(vertices.size()), out.mesh.face_offsets[f + 1] - out.mesh.face_offsets[f]) << "face " << f;
+  }
+  int doubled = 0;
+  for (std::size_t k = old_vertices; k < out.positions.size(); ++k)
+    doubled += std::count(out.positions.begin() + k + 1, out.positions.end(), out.positions[k]) > 0;
+  EXPECT_GT(doubled, 0) << "the cut does not run across the tip's faces";
+  ASSERT_EQ(out.positions.size(), old_vertices + out.mesh.new_vertices.size());
 }
 
 /// Every corner of the cut is a mean of corners of the input face that its own face is part of; returns how many are new.

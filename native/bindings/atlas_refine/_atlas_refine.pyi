@@ -214,6 +214,8 @@ class GroupReport:
     @property
     def bound_met(self) -> bool: ...
     @property
+    def reason(self) -> str: ...  # why its charts keep their UVs; empty where they are refined
+    @property
     def before(self) -> Measures: ...  # but for seams
     @property
     def after(self) -> Measures: ...

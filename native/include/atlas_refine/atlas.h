@@ -26,6 +26,10 @@ struct Atlas {
   /// faces. Faces that are not named are divided here: a fan from the first corner where that is valid, else by ears.
   std::vector<std::array<int, 3>> triangles = {};
 
+  /// Optional: one number per vertex, of the mesh it belongs to where several are given as one. Vertices of different meshes
+  /// never count as one: variants of a model that lie at one place share no chart and no cut.
+  std::vector<int> vertex_meshes = {};
+
   int face_count() const { return face_offsets.empty() ? 0 : static_cast<int>(face_offsets.size()) - 1; }
   int corner_count() const { return static_cast<int>(corner_vertices.size()); }
 };

@@ -75,6 +75,7 @@ struct GroupReport {
   int charts = 0;
   Intervention intervention = Intervention::Unchanged;
   bool bound_met = false;
+  std::string reason;  ///< why its charts keep the UVs of the input; empty where they are refined
   Measures before, after;
   Gap gap;
 };
@@ -129,7 +130,9 @@ struct RefineResult {
   /// Edges of the input, as pairs of its vertices, that were cut where no face was divided (Cut::Edges); each once.
   std::vector<std::array<int, 2>> new_seams;
   Intervention intervention = Intervention::Unchanged;
-  bool bound_met = false;  ///< false only with best_effort, where PE is below the bound; max_distortion holds in every result
+  /// False only with best_effort, where PE is below the bound, and where some group of several keeps its UVs because no result of
+  /// it holds. max_distortion holds in all that was refined.
+  bool bound_met = false;
   /// Of the charts that take part, stacked ones once. With several groups PE, box and gaps are the least of theirs, distortions
   /// their means by area.
   Measures before;

@@ -210,6 +210,44 @@ std::optional<AlignedDisk> rectangle(const Chart& chart, double sigma) {
   return AlignedDisk{AxisAlignedChart::Way::Rectangle, boundary.vertices, quarter_turns, std::move(*uvs)};
 }
 
+/// What a boundary is told by from one of its corners on: the turn at each, and the length of the segment after it.
+using Segments = std::vector<std::pair<int, long>>;
+
+/// Starts the boundary at a corner and turns the chart by quarters until it sets out along u from there: at the corner from which
+/// its segments come first in their order, so that the layout depends neither on numbers nor on the turn of the input.
+void stand_up(AlignedDisk& disk) {
+  constexpr double kTold = 1e5;  // lengths differ from each other where they differ by more of the boundary's
+  const int n = static_cast<int>(disk.boundary.size());
+  const std::vector<int> turns = corner_turns(disk.quarter_turns);
+  std::vector<int> corners;
+  std::vector<double> lengths;
+  const int first = static_cast<int>(std::find_if(turns.begin(), turns.end(), [](int k) { return k != 0; }) - turns.begin());
+  double perimeter = 0;
+  for (int k = 0; k < n; ++k) {
+    const int i = (first + k) % n;
+    if (turns[i] != 0) corners.push_back(i), lengths.push_back(0);
+    const double length = (disk.uvs[disk.boundary[(i + 1) % n]] - disk.uvs[disk.boundary[i]]).norm();
+    lengths.back() += length;
+    perimeter += length;
+  }
+  Segments segments;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    segments.emplace_back(turns[corners[k]], std::lround(kTold * lengths[k] / perimeter));
+  std::size_t best = 0;
+  Segments least = segments;
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    std::rotate(segments.begin(), segments.begin() + 1, segments.end());
+    if (segments < least) least = segments, best = k;
+  }
+  const int start = corners[best], label = disk.quarter_turns[start];
+  for (int i = 0; i < n; ++i) disk.quarter_turns[i] += (i < start ? 4 : 0) - label;
+  std::rotate(disk.quarter_turns.begin(), disk.quarter_turns.begin() + start, disk.quarter_turns.end());
+  std::rotate(disk.boundary.begin(), disk.boundary.begin() + start, disk.boundary.end());
+  for (int k = ((-label) % 4 + 4) % 4; k > 0; --k) {
+    for (Vec2& uv : disk.uvs) uv = Vec2(-uv.y(), uv.x());
+  }
+}
+
 /// At its own scale, in the best of so many turns of less than a quarter.
 AxisAlignedChart as_it_is(const Chart& source, int turns) {
   AxisAlignedChart out{.way = AxisAlignedChart::Way::AsItIs, .mesh = SplitMesh(source), .boundary = {}, .quarter_turns = {}};
@@ -257,6 +295,7 @@ AxisAlignedChart align(const Chart& source, const SidePrices& prices, double sig
   chart.guards.clear();
   std::optional<AlignedDisk> disk = aligned_disk(chart, sigma, monitor);
   if (!disk) return as_it_is(source, kTurns);
+  stand_up(*disk);
   prepared.mesh.uvs = std::move(disk->uvs);
   return {.way = disk->way,
           .mesh = std::move(prepared.mesh),

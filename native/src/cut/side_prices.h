@@ -12,4 +12,6 @@ using SidePrices = std::vector<std::array<double, 3>>;
 
 inline constexpr double kNoSeam = std::numeric_limits<double>::infinity();  ///< an edge that must stay whole
 
+inline constexpr double kPreferredSeam = 0.1;  ///< at most: an edge where a seam is wanted
+
 }  // namespace atlas_refine

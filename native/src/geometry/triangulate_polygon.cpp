@@ -3,11 +3,10 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
@@ -17,10 +16,11 @@ namespace atlas_refine {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<bool, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-                                                            CGAL::No_constraint_intersection_tag>;
+using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel,
+    CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>,
+                                         CGAL::Constrained_triangulation_face_base_2<Kernel>>,
+    CGAL::No_constraint_intersection_tag>;
 
 /// A fan triangle below this share of the mean one is a sliver, in the UV plane or in space; another diagonal is better.
 constexpr double kSmallestShare = 0.05;
@@ -50,44 +50,76 @@ bool fan_fits_positions(const std::vector<Vec3>& positions) {
   return true;
 }
 
-/// Inserts the polygon; false unless its corners are distinct and each of its edges is one edge of the triangulation, which
-/// is to say that the polygon is simple.
-bool insert_polygon(const std::vector<Vec2>& uvs, Delaunay& delaunay) {
-  const int count = static_cast<int>(uvs.size());
-  std::vector<Delaunay::Vertex_handle> handles(count);
+/// The polygon as edges of a triangulation. A place that the polygon comes to several times is one vertex of it.
+struct Inserted {
+  Delaunay delaunay;
+  std::vector<Delaunay::Vertex_handle> places;  // of each corner
+
+  int count() const { return static_cast<int>(places.size()); }
+  Delaunay::Vertex_handle next(int corner) const { return places[(corner + 1) % count()]; }
+  Delaunay::Vertex_handle previous(int corner) const { return places[(corner + count() - 1) % count()]; }
+};
+
+/// False unless each edge of the polygon is one edge of the triangulation.
+bool insert_polygon(const std::vector<Vec2>& uvs, Inserted& polygon) {
+  Delaunay& delaunay = polygon.delaunay;
   Delaunay::Face_handle near;
-  for (int i = 0; i < count; ++i) {
-    handles[i] = delaunay.insert(Kernel::Point_2(uvs[i].x(), uvs[i].y()), near);
-    handles[i]->info() = i;
-    near = handles[i]->face();
+  for (const Vec2& uv : uvs) {
+    polygon.places.push_back(delaunay.insert(Kernel::Point_2(uv.x(), uv.y()), near));
+    near = polygon.places.back()->face();
   }
-  if (static_cast<int>(delaunay.number_of_vertices()) != count || delaunay.dimension() != 2) return false;
+  if (delaunay.dimension() != 2) return false;
   try {
-    for (int i = 0; i < count; ++i) delaunay.insert_constraint(handles[i], handles[(i + 1) % count]);
+    for (int i = 0; i < polygon.count(); ++i) {
+      if (polygon.places[i] == polygon.next(i)) return false;
+      delaunay.insert_constraint(polygon.places[i], polygon.next(i));
+    }
   } catch (const Delaunay::Intersection_of_constraints_exception&) {
     return false;
   }
-  for (int i = 0; i < count; ++i) {
-    if (!delaunay.is_edge(handles[i], handles[(i + 1) % count])) return false;
+  for (int i = 0; i < polygon.count(); ++i) {
+    if (!delaunay.is_edge(polygon.places[i], polygon.next(i))) return false;
   }
   return true;
 }
 
-/// Marks (info) the faces reached from the infinite one without crossing the polygon.
-void mark_outside(Delaunay& delaunay) {
-  for (auto face : delaunay.all_face_handles()) face->info() = false;
-  std::vector<Delaunay::Face_handle> stack = {delaunay.infinite_face()};
-  stack.back()->info() = true;
-  while (!stack.empty()) {
-    const Delaunay::Face_handle face = stack.back();
-    stack.pop_back();
-    for (int i = 0; i < 3; ++i) {
-      const Delaunay::Face_handle next = face->neighbor(i);
-      if (next->info() || delaunay.is_constrained({face, i})) continue;
-      next->info() = true;
-      stack.push_back(next);
+/// The triangle on the left of the edge from corner i on, and the index of that corner's place in it.
+std::pair<Delaunay::Face_handle, int> left_of_edge(const Inserted& polygon, int i) {
+  Delaunay::Face_handle face;
+  int opposite = 0;
+  polygon.delaunay.is_edge(polygon.places[i], polygon.next(i), face, opposite);
+  if (face->vertex(Delaunay::ccw(opposite)) != polygon.places[i]) {
+    const auto other = face->neighbor(opposite);
+    opposite = polygon.delaunay.mirror_index(face, opposite);
+    face = other;
+  }
+  return {face, Delaunay::ccw(opposite)};
+}
+
+/// A triangle's corners in the polygon, -1 where not known.
+using Corners = std::map<Delaunay::Face_handle, Triangle>;
+
+/// The corners of all triangles inside, from each corner of the polygon around its place from one of its edges to the other:
+/// of a polygon that comes to a place several times only so they are told apart. Nothing where an outer face is met, or one
+/// twice.
+std::optional<Corners> corners_inside(const Inserted& polygon) {
+  Corners out;
+  for (int i = 0; i < polygon.count(); ++i) {
+    auto [face, at] = left_of_edge(polygon, i);
+    for (;;) {
+      if (polygon.delaunay.is_infinite(face)) return std::nullopt;
+      int& corner = out.emplace(face, Triangle{-1, -1, -1}).first->second[at];
+      if (corner >= 0) return std::nullopt;
+      corner = i;
+      // On across the side that comes before this corner.
+      const int side = Delaunay::ccw(at);
+      if (face->vertex(Delaunay::cw(at)) == polygon.previous(i)) break;
+      if (polygon.delaunay.is_constrained({face, side})) return std::nullopt;
+      face = face->neighbor(side);
+      at = face->index(polygon.places[i]);
     }
   }
+  return out;
 }
 
 }  // namespace
@@ -101,13 +133,13 @@ std::vector<Triangle> polygon_fan(int corner_count) {
 std::optional<std::vector<Triangle>> triangulate_polygon(const std::vector<Vec2>& uvs, const std::vector<Vec3>& positions) {
   const int count = static_cast<int>(uvs.size());
   if (fan_fits_uvs(uvs) && fan_fits_positions(positions)) return polygon_fan(count);
-  Delaunay delaunay;
-  if (polygon_area(uvs) <= 0 || !insert_polygon(uvs, delaunay)) return std::nullopt;
-  mark_outside(delaunay);
+  Inserted polygon;
+  if (!(polygon_area(uvs) > 0) || !insert_polygon(uvs, polygon)) return std::nullopt;
+  const std::optional<Corners> corners = corners_inside(polygon);
+  if (!corners || static_cast<int>(corners->size()) != count - 2) return std::nullopt;
   std::vector<Triangle> triangles;
-  for (auto face : delaunay.finite_face_handles()) {
-    if (face->info()) continue;
-    Triangle t = {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()};
+  for (auto [face, t] : *corners) {
+    if (std::find(t.begin(), t.end(), -1) != t.end()) return std::nullopt;
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     triangles.push_back(t);
   }

@@ -69,6 +69,9 @@ void check_arrays(const Atlas& atlas) {
   if (atlas.corner_uvs.size() != atlas.corner_vertices.size()) {
     fail(atlas, std::to_string(atlas.corner_uvs.size()) + " UVs for " + std::to_string(atlas.corner_count()) + " corners");
   }
+  if (!atlas.vertex_meshes.empty() && atlas.vertex_meshes.size() != atlas.positions.size())
+    fail(atlas, std::to_string(atlas.vertex_meshes.size()) + " mesh numbers for " + std::to_string(atlas.positions.size()) +
+                    " vertices");
   check_faces(atlas);
   check_corners(atlas);
   check_triangles(atlas);

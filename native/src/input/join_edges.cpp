@@ -111,7 +111,7 @@ EdgeJoins join_edges(const Atlas& atlas, Joining joining, const std::vector<int>
     const double area = doubled_uv_area(atlas, f);
     joins.senses.push_back(area > 0 ? 1 : area < 0 ? -1 : 0);
   }
-  joins.places = places(atlas.positions);
+  joins.places = places(atlas);
   const std::vector<EdgeUse> uses = edge_uses(atlas, joins.places);
   UsePairs pairs(atlas, joining, joins);
   for_each_edge(uses,

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <iterator>
 
+#include "geometry/triangulate_polygon.h"
 #include "input/uv_noise.h"
 
 namespace atlas_refine {
@@ -88,6 +89,23 @@ bool UsePairs::same_corners(const EdgeUse& a, const EdgeUse& b) const {
   return corners(a) == corners(b);
 }
 
+/// Whether a face runs along the edge to and fro, as polygons do that reach their holes that way, and lies on both sides of it.
+bool UsePairs::is_bridge(const EdgeUse& a, const EdgeUse& b) const {
+  if (a.vertex_key() != b.vertex_key() || a.runs_up() == b.runs_up()) return false;
+  const int face = joins_.corner_faces[a.corner];
+  std::vector<Vec2> uvs;
+  std::vector<Vec3> positions;
+  for (int c = atlas_.face_offsets[face]; c < atlas_.face_offsets[face + 1]; ++c) {
+    uvs.push_back(atlas_.corner_uvs[c]);
+    positions.push_back(atlas_.positions[atlas_.corner_vertices[c]]);
+  }
+  if (joins_.side(a.corner) < 0) {
+    std::reverse(uvs.begin(), uvs.end());
+    std::reverse(positions.begin(), positions.end());
+  }
+  return triangulate_polygon(uvs, positions).has_value();
+}
+
 bool UsePairs::all_doubles(const Group& group) const {
   return std::all_of(group.begin() + 1, group.end(), [&](const EdgeUse& use) { return same_corners(group.front(), use); });
 }
@@ -113,7 +131,7 @@ void UsePairs::join_equal(EdgeUses uses) {
   if (uses.size() == 2) {
     const EdgeUse &a = uses[0], &b = uses[1];
     const bool one_face = joins_.corner_faces[a.corner] == joins_.corner_faces[b.corner];
-    if (!one_face && (opposite(a, b) || !same_corners(a, b))) unite(a, b);
+    if (one_face ? is_bridge(a, b) : opposite(a, b) || !same_corners(a, b)) unite(a, b);
     return;
   }
   for (const int sense : {1, -1}) {

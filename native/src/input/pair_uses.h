@@ -47,6 +47,7 @@ class UsePairs {
   bool opposite(const EdgeUse& a, const EdgeUse& b) const;
   int left_or_right(const EdgeUse& use) const;
   bool same_corners(const EdgeUse& a, const EdgeUse& b) const;
+  bool is_bridge(const EdgeUse& a, const EdgeUse& b) const;
   bool all_doubles(const Group& group) const;
 
   const Atlas& atlas_;

@@ -7,8 +7,12 @@
 
 namespace atlas_refine {
 
-std::vector<int> places(const std::vector<Vec3>& positions) {
-  const auto key = [&](int v) { return std::tie(positions[v].x(), positions[v].y(), positions[v].z()); };
+std::vector<int> places(const Atlas& atlas) {
+  const std::vector<Vec3>& positions = atlas.positions;
+  const auto key = [&](int v) {
+    const int mesh = atlas.vertex_meshes.empty() ? 0 : atlas.vertex_meshes[v];
+    return std::tuple(mesh, positions[v].x(), positions[v].y(), positions[v].z());
+  };
   std::vector<int> order(positions.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) {

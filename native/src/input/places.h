@@ -7,7 +7,7 @@
 
 namespace atlas_refine {
 
-/// For every vertex the smallest index of the vertices that lie exactly where it does.
-std::vector<int> places(const std::vector<Vec3>& positions);
+/// For every vertex the smallest index of the vertices of its mesh that lie exactly where it does.
+std::vector<int> places(const Atlas& atlas);
 
 }  // namespace atlas_refine

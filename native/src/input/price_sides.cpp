@@ -14,7 +14,6 @@ namespace atlas_refine {
 namespace {
 
 constexpr double kSharpPrice = 0.5;  // of an edge that bends by a right angle or more
-constexpr double kPreferred = 0.1;   // factor of edges where seams are wanted
 
 using VertexPairs = std::vector<std::array<int, 2>>;
 
@@ -71,7 +70,7 @@ struct ChartInSpace {
     if (!wishes.along_edges || across < 0) return 1;
     if (chart.triangle_faces[side.triangle] == chart.triangle_faces[across]) return kNoSeam;
     const double sharp = 1 - (1 - kSharpPrice) * bend(wishes, side);
-    return wishes.preferred.contains(edge) ? kPreferred * sharp : sharp;
+    return wishes.preferred.contains(edge) ? kPreferredSeam * sharp : sharp;
   }
 };
 
@@ -88,7 +87,7 @@ SidePrices prices_of(const Wishes& wishes, const ChartInSpace& chart) {
 std::vector<SidePrices> price_sides(const Atlas& atlas, const ChartSet& set, const RefineOptions& options) {
   std::vector<SidePrices> out(set.charts.size());
   if (options.cut == Cut::Split && options.no_seam.empty()) return out;
-  Wishes wishes{atlas, places(atlas.positions), {}, {}, options.cut == Cut::Edges};
+  Wishes wishes{atlas, places(atlas), {}, {}, options.cut == Cut::Edges};
   wishes.forbidden = space_edges(wishes.place, options.no_seam);
   wishes.preferred = space_edges(wishes.place, options.prefer_seam);
   std::vector<std::vector<int>> corners = corners_at_vertices(set);

@@ -59,6 +59,23 @@ std::optional<std::vector<Triangle>> positive_triangles(int face, const Outline&
   return triangulate_polygon(outline.uvs, outline.positions);
 }
 
+/// A face without a positive triangulation: a fan, unless corners that are one vertex of the chart would meet in a triangle of
+/// it. Such a face has a triangulation where the input has its corners; noise was settled since.
+std::vector<Triangle> any_triangles(const Atlas& atlas, const std::vector<CornerRef>& corners, const Outline& outline) {
+  std::vector<int> vertices;
+  std::vector<Vec2> uvs;
+  double doubled = 0;
+  for (int c : outline.corners) {
+    vertices.push_back(corners[c].vertex);
+    uvs.push_back(atlas.corner_uvs[c]);
+    if (uvs.size() > 2) doubled += doubled_area(uvs.front(), uvs[uvs.size() - 2], uvs.back());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  if (std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end()) return polygon_fan(outline.size());
+  for (Vec2& uv : uvs) uv.x() *= doubled < 0 ? -1 : 1;
+  return triangulate_polygon(uvs, outline.positions).value_or(polygon_fan(outline.size()));
+}
+
 FaceReading reading_of(int chart, const Outline& outline, bool has_triangles) {
   const bool fan = all_positive(polygon_fan(outline.size()), outline.uvs);
   return {chart, fan, has_triangles, outline.size() == 3 ? fan : is_strictly_convex(outline.uvs)};
@@ -121,7 +138,7 @@ FaceTriangles triangulate_faces(const Atlas& atlas, const std::vector<CornerRef>
     out.readings.push_back(reading_of(k, outline, triangles.has_value()));
     if (!triangles) {
       out.defects.push_back({k, face, defect_of(outline.uvs)});
-      triangles = polygon_fan(outline.size());
+      triangles = any_triangles(atlas, corners, outline);
     }
     for (const Triangle& t : *triangles) {
       chart.triangles.push_back(on_chart(t));

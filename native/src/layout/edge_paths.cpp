@@ -17,6 +17,9 @@ constexpr double kCorridor = 0.1;
 constexpr double kCorridorEdges = 1;
 // What a path costs for each length that its ends are away from the trail's.
 constexpr double kMissed = 3;
+// The same where a path starts or ends with an edge where a seam is wanted; its distance costs nothing else. A whole path of
+// such edges beside the trail is taken as far away as nearly half the trail's length.
+constexpr double kMissedForWanted = 1;
 // Paths are sought as far from the trail as it is long and so many mean edges further; one that costs as much as missing both
 // ends by that together leads elsewhere.
 constexpr double kReachEdges = 2;
@@ -122,7 +125,14 @@ TrailView on_chart(const TrailView& view, const SplitMesh& divided, int vertices
 class PathFinder {
  public:
   PathFinder(const SplitMesh& mesh, const SidePrices& prices, EdgeParts& parts)
-      : mesh_(mesh), prices_(prices), parts_(parts), graph_(mesh, mesh.uvs) {}
+      : mesh_(mesh), prices_(prices), parts_(parts), graph_(mesh, mesh.uvs), missed_(mesh.vertex_count(), kMissed) {
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        if (!mesh.is_boundary({t, k}) && prices[t][k] <= kPreferredSeam)
+          missed_[mesh.from({t, k})] = missed_[mesh.to({t, k})] = kMissedForWanted;
+      }
+    }
+  }
 
   double mean_edge() const { return graph_.mean_length; }
 
@@ -134,7 +144,7 @@ class PathFinder {
     Queue queue;
     for (int v = 0; v < mesh_.vertex_count(); ++v) {
       if (!parts_.on_border(v) || view.away[v] == kInfinite) continue;
-      cost[v] = kMissed * (view.away[v] + view.along[v]);
+      cost[v] = missed_[v] * view.away[v] + kMissed * view.along[v];
       queue.emplace(cost[v], v);
     }
     double best = kMissed * view.reach;
@@ -147,10 +157,10 @@ class PathFinder {
         const EdgeGraph::Edge& edge = graph_.edges[e];
         const double price = prices_[edge.side.triangle][edge.side.side];
         if (price == kNoSeam || mesh_.is_boundary(edge.side) || view.away[edge.to] == kInfinite) continue;
-        const double off = 0.5 * (view.away[v] + view.away[edge.to]) / width;
+        const double off = price <= kPreferredSeam ? 0 : 0.5 * (view.away[v] + view.away[edge.to]) / width;
         const double through = d + price * edge.length * (1 + off * off);
         if (parts_.on_border(edge.to)) {
-          const double whole = through + kMissed * (view.away[edge.to] + view.length - view.along[edge.to]);
+          const double whole = through + missed_[edge.to] * view.away[edge.to] + kMissed * (view.length - view.along[edge.to]);
           if (whole >= best) continue;
           best = whole;
           last = edge.side;
@@ -171,6 +181,7 @@ class PathFinder {
   const SidePrices& prices_;
   const EdgeParts& parts_;
   EdgeGraph graph_;
+  std::vector<double> missed_;  // of each vertex: what a path costs for each length that it starts or ends away from the trail's
 };
 
 /// The sides that are cut to make a disk of the chart.

@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <tuple>
 
 #include "geometry/plane.h"
 #include "layout/axis_trails.h"
@@ -109,6 +111,27 @@ std::vector<std::array<char, 3>> trail_sides(const SplitMesh& mesh, const std::v
   return marks;
 }
 
+/// Numbers the faces by where they lie, whatever the order of the triangles.
+void number_by_place(QuadMesh& quads, std::vector<int>& face_of) {
+  const auto key = [&](int f) {
+    const Box& box = quads.faces[f];
+    return std::tie(box.min.y(), box.min.x(), box.max.y(), box.max.x());
+  };
+  std::vector<int> order(quads.faces.size()), number(quads.faces.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  std::vector<Box> faces;
+  std::vector<double> areas;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    number[order[k]] = static_cast<int>(k);
+    faces.push_back(quads.faces[order[k]]);
+    areas.push_back(quads.face_areas[order[k]]);
+  }
+  quads.faces = std::move(faces);
+  quads.face_areas = std::move(areas);
+  for (int& face : face_of) face = number[face];
+}
+
 /// Triangles that no trail parts make one face: fills the faces, returns the face of each triangle.
 std::vector<int> find_faces(const SplitMesh& mesh, const std::vector<std::vector<int>>& paths, QuadMesh& quads) {
   const std::vector<std::array<char, 3>> is_trail = trail_sides(mesh, paths);
@@ -137,6 +160,7 @@ std::vector<int> find_faces(const SplitMesh& mesh, const std::vector<std::vector
     quads.faces.push_back(box);
     quads.face_areas.push_back(area);
   }
+  number_by_place(quads, face_of);
   return face_of;
 }
 

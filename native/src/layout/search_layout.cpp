@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "layout/motorcycles.h"
 #include "layout/pack_rectangles.h"
@@ -46,6 +48,7 @@ struct Round {
   int extra_corners;
   std::vector<QuadMesh> quads;              // per chart
   const std::vector<Decomposition>& boxed;  // per chart: its box where it is packed as it is, else empty
+  std::vector<int> order;                   // of charts, by their shapes: numbers of the input do not matter
   double area = 0;                          // of all charts
   double cut_length_unit = 0;
 };
@@ -78,6 +81,22 @@ double highest_pe(const Round& round) {
   return round.area / boxes;
 }
 
+/// Large charts first.
+std::vector<int> by_size(const Round& round) {
+  std::vector<std::tuple<float, float, std::size_t>> size;
+  for (std::size_t c = 0; c < round.quads.size(); ++c) {
+    double area = 0;
+    for (double part : round.quads[c].face_areas) area += part;
+    for (double part : round.boxed[c].areas) area += part;
+    size.emplace_back(static_cast<float>(area / round.area),
+                      static_cast<float>(round.quads[c].boundary_length / std::sqrt(round.area)), round.quads[c].trails.size());
+  }
+  std::vector<int> order(size.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size[a] > size[b]; });
+  return order;
+}
+
 void add_quad_meshes(Round& round, const std::vector<AxisAlignedChart>& aligned, const std::vector<Chart>& sources) {
   for (std::size_t c = 0; c < aligned.size(); ++c) {
     const bool boxed = !round.boxed[c].rectangles.empty();
@@ -86,6 +105,7 @@ void add_quad_meshes(Round& round, const std::vector<AxisAlignedChart>& aligned,
     for (double area : round.quads.back().face_areas) round.area += area;
     for (double area : round.boxed[c].areas) round.area += area;
   }
+  round.order = by_size(round);
 }
 
 /// The first round tries as many as were asked for; those after it that miss the bound fewer where there are many rectangles.
@@ -96,10 +116,10 @@ int candidate_count(const Round& round, const LayoutOptions& options) {
   return round.number == 0 ? options.rectangles.candidates : std::min(options.rectangles.candidates, affordable);
 }
 
-std::vector<Vec2> sizes_of(const Candidate& candidate) {
+std::vector<Vec2> sizes_of(const Candidate& candidate, const Round& round) {
   std::vector<Vec2> out;
-  for (const Decomposition& d : candidate.decompositions) {
-    for (const Box& box : d.rectangles) out.push_back(box.size());
+  for (const int c : round.order) {
+    for (const Box& box : candidate.decompositions[c].rectangles) out.push_back(box.size());
   }
   return out;
 }
@@ -122,13 +142,13 @@ Score score_of(const Candidate& candidate, const Round& round, const LayoutOptio
 }
 
 void pack(Candidate& candidate, const Round& round, const LayoutOptions& options, double padding) {
-  candidate.packing = pack_rectangles(sizes_of(candidate), padding, options.box_aspect);
+  candidate.packing = pack_rectangles(sizes_of(candidate, round), padding, options.box_aspect);
   candidate.score = score_of(candidate, round, options);
 }
 
 /// Annealed besides.
 void pack_well(Candidate& candidate, const Round& round, const LayoutOptions& options, double padding, int k) {
-  const std::vector<Vec2> sizes = sizes_of(candidate);
+  const std::vector<Vec2> sizes = sizes_of(candidate, round);
   const long n = static_cast<long>(sizes.size());
   const auto iterations = static_cast<int>(std::min<long>(20000, 100L * kAnnealing / (n * n)));
   Rng rng(options.seed, 200 + round.number, k);
@@ -146,8 +166,8 @@ class Chain {
  public:
   Chain(const Round& round, const LayoutOptions& options, double padding, Rng rng)
       : round_(round), options_(options), padding_(padding), rng_(rng) {
-    for (std::size_t c = 0; c < round.quads.size(); ++c) {
-      if (!round.quads[c].corners.empty()) charts_.push_back(static_cast<int>(c));
+    for (const int c : round.order) {
+      if (!round.quads[c].corners.empty()) charts_.push_back(c);
     }
   }
 
@@ -167,10 +187,10 @@ class Chain {
 
  private:
   Candidate first(bool shortest) {
-    Candidate out;
-    for (std::size_t c = 0; c < round_.quads.size(); ++c) {
-      out.graphs.push_back(shortest ? shortest_graph(round_.quads[c]) : random_graph(round_.quads[c], rng_));
-      out.decompositions.push_back(decompose(round_, static_cast<int>(c), out.graphs.back()));
+    Candidate out{std::vector<MotorcycleGraph>(round_.quads.size()), std::vector<Decomposition>(round_.quads.size()), {}, {}};
+    for (const int c : round_.order) {
+      out.graphs[c] = shortest ? shortest_graph(round_.quads[c]) : random_graph(round_.quads[c], rng_);
+      out.decompositions[c] = decompose(round_, c, out.graphs[c]);
     }
     pack(out, round_, options_, padding_);
     return out;
@@ -216,11 +236,11 @@ std::vector<Candidate> run_chains(const Round& round, const LayoutOptions& optio
 
 Layout layout_of(const Candidate& candidate, const Round& round) {
   Layout out;
+  for (const Decomposition& d : candidate.decompositions) out.trails.push_back(d.trails);
   std::size_t k = 0;
-  for (std::size_t c = 0; c < candidate.decompositions.size(); ++c) {
-    out.trails.push_back(candidate.decompositions[c].trails);
+  for (const int c : round.order) {
     for (const Box& box : candidate.decompositions[c].rectangles) {
-      out.pieces.push_back({static_cast<int>(c), box, candidate.packing.turned[k] != 0, candidate.packing.positions[k]});
+      out.pieces.push_back({c, box, candidate.packing.turned[k] != 0, candidate.packing.positions[k]});
       ++k;
     }
   }
@@ -253,14 +273,14 @@ Layout search_layout(const std::vector<AxisAlignedChart>& aligned, const std::ve
   const std::vector<Decomposition> boxes = boxes_of(aligned, sources);
   Layout best;
   for (std::size_t g = 0; g < options.gaps.size(); ++g) {
-    Round round{static_cast<int>(g), options.gaps[g], 0, {}, boxes};
+    Round round{static_cast<int>(g), options.gaps[g], 0, {}, boxes, {}};
     add_quad_meshes(round, aligned, sources);
     const Layout layout = search_round(round, options, monitor);
     if (best.pieces.empty() || layout.pe > best.pe) best = layout;
     if (best.pe >= pe_target(options) || highest_pe(round) < pe_target(options)) return best;
   }
   for (const int extra : kExtraCorners) {
-    Round round{extra, options.gaps.back(), extra, {}, boxes};
+    Round round{extra, options.gaps.back(), extra, {}, boxes, {}};
     add_quad_meshes(round, aligned, sources);
     const Layout layout = search_round(round, options, monitor);
     if (layout.pe > best.pe) best = layout;

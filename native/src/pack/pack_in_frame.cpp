@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "pack/canonical_outlines.h"
 #include "pack/layout.h"
 #include "pack/occupancy.h"
 #include "support/parallel.h"
@@ -188,9 +189,15 @@ double area_of(const std::vector<Outline>& outlines) {
 }  // namespace
 
 std::optional<FramePacking> pack_in_frame(const std::vector<Outline>& outlines, const std::vector<Outline>& obstacles,
-                                          const FrameOptions& options) {
-  FrameSearch search(outlines, obstacles, options);
-  const double least = std::sqrt(kLeastShare * options.frame.prod() / area_of(outlines));
+                                          const FrameOptions& asked) {
+  // A power of two: scales are divided by it without rounding.
+  const CanonicalOutlines canonical = canonical_outlines(outlines, std::ldexp(1, std::ilogb(area_of(outlines)) / 2));
+  FrameOptions options = asked;
+  options.enough *= canonical.unit;
+  options.gap += 2 * options.enough * canonical.off_grid;
+  options.margin += options.enough * canonical.off_grid;
+  FrameSearch search(canonical.outlines, obstacles, options);
+  const double least = std::sqrt(kLeastShare * options.frame.prod() / area_of(canonical.outlines));
   double scale = options.enough, too_large = scale;
   std::vector<Placement> found;
   for (found = search.fit(scale, 0); found.empty(); found = search.fit(scale, 1 - scale / options.enough)) {
@@ -208,7 +215,7 @@ std::optional<FramePacking> pack_in_frame(const std::vector<Outline>& outlines, 
       found = std::move(larger);
     }
   }
-  return FramePacking{scale, std::move(found)};
+  return FramePacking{scale / canonical.unit, canonical.of_input(found)};
 }
 
 }  // namespace atlas_refine

@@ -83,6 +83,22 @@ std::vector<Turn> small_box_turns(const std::vector<Vec2>& hull, int count) {
   return turns;
 }
 
+std::vector<Turn> smallest_box_turns(const std::vector<Vec2>& hull, double tolerance, std::size_t count) {
+  std::vector<Turn> turns;
+  std::vector<double> areas;
+  for (double angle : caliper_angles(hull)) {
+    turns.push_back(turn_of(angle));
+    areas.push_back(turned_box(hull, turns.back()).area());
+  }
+  if (turns.empty()) return {{}};  // a single point
+  const double most = (1 + tolerance) * *std::min_element(areas.begin(), areas.end());
+  std::vector<Turn> out;
+  for (std::size_t k = 0; k < turns.size() && out.size() < count; ++k) {
+    if (areas[k] <= most) out.push_back(turns[k]);
+  }
+  return out;
+}
+
 std::vector<Turn> turns_to_try(const Outline& outline, int count) {
   if (outline.rotate == Rotate::None) return {{}};
   std::vector<Turn> turns;
@@ -97,8 +113,9 @@ Turn best_turn(const Outline& outline, double aspect) {
   const std::vector<Vec2> hull = convex_hull(outline);
   if (outline.rotate == Rotate::Any) return best_turn(hull, aspect);
   const auto cost = [&](const Turn& turn) { return box_of_aspect(turned_box(hull, turn), aspect).area(); };
+  constexpr double kBetter = 1 - 1e-9;  // by more than rounding
   const Turn upright, turned = upright.quarter_turned();
-  return outline.rotate == Rotate::QuarterTurns && cost(turned) < cost(upright) ? turned : upright;
+  return outline.rotate == Rotate::QuarterTurns && cost(turned) < kBetter * cost(upright) ? turned : upright;
 }
 
 Turn best_turn(const std::vector<Vec2>& hull, double aspect) {

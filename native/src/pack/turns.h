@@ -28,6 +28,10 @@ Box turned_box(const std::vector<Vec2>& points, const Turn& turn);
 /// quarter turns. Never empty.
 std::vector<Turn> small_box_turns(const std::vector<Vec2>& hull, int count);
 
+/// The turns that lay a hull edge on an axis and whose bounding boxes are the smallest, but for a relative `tolerance` of their
+/// areas; at most `count`, one per class of quarter turns. Never empty.
+std::vector<Turn> smallest_box_turns(const std::vector<Vec2>& hull, double tolerance, std::size_t count);
+
 /// The turn with the smallest bounding box of the given aspect (width /
 /// height), exact; for aspect 0 the smallest bounding box.
 Turn best_turn(const std::vector<Vec2>& hull, double aspect);

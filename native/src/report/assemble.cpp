@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "cut/match_pieces.h"
 #include "report/certify.h"
@@ -46,11 +48,14 @@ void add_part(const RefinedPart& part, Whole& out) {
 
 /// What of a leader lies on what of the chart that follows it.
 struct Mapping {
-  int chart;                  // the follower
-  std::vector<int> vertex;    // the own vertex on each of the leader's
-  std::vector<int> triangle;  // the own triangle on each of the leader's, where they lie on each other
-  bool alike = true;          // own triangles are wound as the leader's
-  std::map<int, int> points;  // the own point for one of the leader's
+  int chart;                             // the follower
+  std::vector<int> vertex;               // the own vertex on each of the leader's
+  std::vector<int> triangle;             // the own triangle on each of the leader's, where they lie on each other
+  bool alike = true;                     // own triangles are wound as the leader's
+  const std::vector<int>& space_points;  // of the follower's vertices
+  /// The own point for one of the leader's and the place in space where it lies on the follower: edges that are one at a tip of
+  /// the leader may be several here.
+  std::map<std::pair<int, std::array<int, 3>>, int> points;
 };
 
 std::array<int, 3> sorted(std::array<int, 3> t) {
@@ -58,9 +63,9 @@ std::array<int, 3> sorted(std::array<int, 3> t) {
   return t;
 }
 
-Mapping mapping_of(const Follower& follower, const std::vector<Chart>& charts) {
+Mapping mapping_of(const Follower& follower, const std::vector<Chart>& charts, const std::vector<int>& space_points) {
   const Chart &own = charts[follower.chart], &leader = charts[follower.leader];
-  Mapping map{follower.chart, std::vector<int>(leader.vertex_count(), -1), {}, true, {}};
+  Mapping map{follower.chart, std::vector<int>(leader.vertex_count(), -1), {}, true, space_points, {}};
   for (int v = 0; v < own.vertex_count(); ++v) map.vertex[follower.vertices[v]] = v;
   if (!follower.same_triangles) return map;
   std::map<std::array<int, 3>, int> numbers;
@@ -80,7 +85,11 @@ Support moved(Support support, const Mapping& map) {
 
 /// `support`: where on the follower it lies. The leader's point may be told by another chart that has it too.
 int own_point(int leaders, const Support& support, Mapping& map, std::vector<SurfacePoint>& points) {
-  const auto [at, added] = map.points.emplace(leaders, static_cast<int>(points.size()));
+  std::array<int, 3> place{-1, -1, -1};
+  for (int k = 0; k < 3; ++k) {
+    if (support.vertices[k] >= 0) place[k] = map.space_points[support.vertices[k]];
+  }
+  const auto [at, added] = map.points.emplace(std::pair(leaders, sorted(place)), static_cast<int>(points.size()));
   if (added) points.push_back({map.chart, support});
   return at->second;
 }
@@ -113,22 +122,51 @@ void follow_whole(const Follower& follower, const std::vector<Chart>& charts, in
   add_piece(std::move(own), std::move(uvs), out);
 }
 
-void follow(const Follower& follower, const std::vector<Chart>& charts, Whole& out) {
+/// Ends of seams: a vertex of the chart, or ~k for point k.
+int end_at(const Piece& piece, int vertex) {
+  return piece.vertices[vertex] >= 0 ? piece.vertices[vertex] : ~piece.points[vertex];
+}
+
+template <class Visit>
+void for_border(const Piece& piece, const Visit& visit) {
+  for (const std::vector<int>& loop : piece.mesh.boundary_loops) {
+    for (std::size_t k = 0; k < loop.size(); ++k) visit(loop[k], loop[(k + 1) % loop.size()]);
+  }
+}
+
+/// The follower's edges on the leader's seams, which lie on the borders of its pieces.
+std::set<std::pair<int, int>> followed_seams(const std::vector<Seam>& seams, int leader, const std::vector<Piece>& leaders,
+                                             const std::vector<Piece>& followers) {
+  std::set<std::pair<int, int>> cut, out;
+  for (const Seam& seam : seams) {
+    if (seam.chart == leader) cut.insert(std::minmax(seam.ends[0], seam.ends[1]));
+  }
+  for (std::size_t p = 0; p < leaders.size(); ++p) {
+    for_border(leaders[p], [&](int from, int to) {
+      if (cut.contains(std::minmax(end_at(leaders[p], from), end_at(leaders[p], to))))
+        out.insert(std::minmax(end_at(followers[p], from), end_at(followers[p], to)));
+    });
+  }
+  return out;
+}
+
+void follow(const Follower& follower, const ChartSet& set, Whole& out) {
+  const std::vector<Chart>& charts = set.charts;
   const std::vector<int> pieces = out.pieces_of[follower.leader];
   if (pieces.empty()) return;  // the leader stays as it is
   const Piece& first = out.atlas.pieces[pieces.front()];
   const bool divided = std::any_of(first.points.begin(), first.points.end(), [](int p) { return p >= 0; });
   if (pieces.size() == 1 && !divided && first.mesh.vertex_count() == charts[follower.leader].vertex_count())
     return follow_whole(follower, charts, pieces.front(), out);
-  Mapping map = mapping_of(follower, charts);
-  for (const int p : pieces)
-    add_piece(followed(out.atlas.pieces[p], charts[follower.chart], map, out.atlas.points), out.uvs[p], out);
-  const auto end = [&](int e) { return e < 0 ? ~map.points.at(~e) : map.vertex[e]; };
-  const std::size_t seams = out.atlas.seams.size();
-  for (std::size_t k = 0; k < seams; ++k) {
-    const Seam seam = out.atlas.seams[k];
-    if (seam.chart == follower.leader) out.atlas.seams.push_back({follower.chart, {end(seam.ends[0]), end(seam.ends[1])}});
+  Mapping map = mapping_of(follower, charts, set.points[follower.chart]);
+  std::vector<Piece> leaders, followers;
+  for (const int p : pieces) {
+    leaders.push_back(out.atlas.pieces[p]);
+    followers.push_back(followed(leaders.back(), charts[follower.chart], map, out.atlas.points));
+    add_piece(followers.back(), out.uvs[p], out);
   }
+  for (const auto& [from, to] : followed_seams(out.atlas.seams, follower.leader, leaders, followers))
+    out.atlas.seams.push_back({follower.chart, {from, to}});
 }
 
 /// Charts that no part changed, with the input's UVs.
@@ -164,6 +202,7 @@ AssembledAtlas divided(const InputAtlas& whole, bool several, const AssembleOpti
   CutFaces faces = cut_faces(whole.atlas, whole.set, pieces.atlas, {pieces.uvs, options.triangulate});
   AssembledAtlas out;
   out.mesh = {whole.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
+  out.mesh.vertex_meshes = std::move(faces.vertex_meshes);
   for (std::size_t c = 0; c < faces.corners.size(); ++c) {
     const auto [p, vertex] = faces.corners[c];
     const bool own = faces.mesh.corner_weights[c][0] == 1 && pieces.own[p];
@@ -183,7 +222,7 @@ AssembledAtlas assemble(const InputAtlas& whole, const Participants& participant
   for (const RefinedPart& part : parts) {
     if (part.changed) add_part(part, pieces);
   }
-  for (const Follower& follower : participants.followers) follow(follower, charts, pieces);
+  for (const Follower& follower : participants.followers) follow(follower, whole.set, pieces);
   const bool cut = !pieces.atlas.seams.empty() || !pieces.atlas.points.empty();
   const bool several = parts.size() > 1 || !participants.left.empty() || !participants.followers.empty();
   const int cut_edges = static_cast<int>(pieces.atlas.seams.size());

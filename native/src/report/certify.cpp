@@ -39,6 +39,7 @@ CutFaces faces_of(const InputAtlas& input, const CutAtlas& atlas, const CutFaceO
   if (divided) return cut_faces(input.atlas, input.set, atlas, options);
   CutFaces out;
   out.positions = input.atlas.positions;
+  out.vertex_meshes = input.atlas.vertex_meshes;
   out.mesh.face_offsets = {0};
   const std::vector<CornerRef> corners = corners_on_pieces(input.atlas, input.set, atlas);
   for (int f = 0; f < input.atlas.face_count(); ++f) {
@@ -62,6 +63,13 @@ class Refusal {
  private:
   std::string prefix_;
 };
+
+/// Of the charts of the output, whose corners are those of pieces.
+Freedoms freedom_of_output(const ChartSet& set, const std::vector<CornerRef>& corners, const Freedoms& of_pieces) {
+  Freedoms out(of_pieces.empty() ? 0 : set.charts.size());
+  for (std::size_t c = 0; c < corners.size() && !out.empty(); ++c) out[set.corners[c].chart] = of_pieces[corners[c].chart];
+  return out;
+}
 
 /// As many charts as pieces, with as many vertices, have the seams that were meant.
 void require_valid(const InputAtlas& input, const Atlas& output, const ChartSet& set, const Freedoms& freedom,
@@ -221,17 +229,16 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
   const bool cut = !atlas.seams.empty() || !atlas.points.empty();
   CertifiedAtlas out{.stored = meshes_of(atlas)};
   out.uvs = stored_uvs(out.stored, atlas.frame, input.origin, options);
-  // Charts are only cut where none is fixed.
-  const Freedoms freedom = cut ? Freedoms{} : freedom_of(input.set, options);
-  restore_fixed(input, freedom, out.uvs);
+  const Freedoms of_charts = freedom_of(input.set, options), freedom = freedom_of_pieces(of_charts, atlas);
+  restore_fixed(input, atlas, of_charts, out.uvs);
   const bool divided = cut && divides_faces(options);
   CutFaces faces = faces_of(input, atlas, {out.uvs, options.triangulate}, divided);
   Atlas output{input.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
+  output.vertex_meshes = std::move(faces.vertex_meshes);
   if (!divided) output.triangles = readers_triangles(input);
   for (const CornerRef& corner : faces.corners) output.corner_uvs.push_back(out.uvs[corner.chart][corner.vertex]);
   ChartSet set = split_charts(output, Joining::Exact);
-  // Where the charts are others than before they are refused below.
-  const Freedoms freedom_after = set.charts.size() == freedom.size() ? freedom : Freedoms{};
+  const Freedoms freedom_after = freedom_of_output(set, faces.corners, freedom);
   excuse_fixed(set, freedom_after);
   require_valid(input, output, set, freedom_after, out.stored, cut);
   stretch_to_texture(set.charts, options.box_aspect);

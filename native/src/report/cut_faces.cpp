@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "atlas_refine/error.h"
 #include "geometry/convex_polygon.h"
@@ -52,18 +55,29 @@ std::vector<std::vector<FacePart>> parts_of_faces(const Sources& in) {
   return out;
 }
 
+/// An edge of the face that it runs along once, as vertices of its chart: some polygons reach their holes along an edge to and
+/// fro.
+std::pair<int, int> outer_edge(const Sources& in, int face) {
+  std::set<std::pair<int, int>> edges;
+  for (int c = in.begin(face), end = in.end(face); c < end; ++c)
+    edges.emplace(in.set.corners[c].vertex, in.set.corners[c + 1 < end ? c + 1 : in.begin(face)].vertex);
+  return *std::find_if(edges.begin(), edges.end(), [&](const auto& edge) { return !edges.contains({edge.second, edge.first}); });
+}
+
 /// True where the chart has the face wound against the input.
 bool is_turned(const Sources& in, int face) {
-  const int begin = in.begin(face), count = in.end(face) - begin;
-  const Chart& chart = in.set.charts[in.set.corners[begin].chart];
+  const auto [from, to] = outer_edge(in, face);
+  const Chart& chart = in.set.charts[in.set.corners[in.begin(face)].chart];
   // Triangles of a chart are ordered by their face.
   const std::vector<int>& faces = chart.triangle_faces;
-  const auto triangle = std::lower_bound(faces.begin(), faces.end(), face) - faces.begin();
-  std::array<int, 3> at{};
-  for (int k = 0; k < 3; ++k) at[k] = in.corner_of(face, chart.triangles[triangle][k]) - begin;
-  int around = 0;
-  for (int k = 0; k < 3; ++k) around += ((at[(k + 1) % 3] - at[k]) % count + count) % count;
-  return around > count;
+  const auto first = std::lower_bound(faces.begin(), faces.end(), face) - faces.begin();
+  for (auto t = first; t < std::ssize(faces) && faces[t] == face; ++t) {
+    const Triangle& corners = chart.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      if (corners[k] == from && corners[(k + 1) % 3] == to) return false;
+    }
+  }
+  return true;
 }
 
 /// The one loop around the triangles, empty where there are several or some vertex lies inside.
@@ -218,6 +232,13 @@ std::vector<Vec3> positions_with(const Sources& in, const std::vector<NewVertex>
   return out;
 }
 
+std::vector<int> meshes_with(const Atlas& atlas, const std::vector<NewVertex>& vertices) {
+  std::vector<int> out = atlas.vertex_meshes;
+  if (out.empty()) return out;
+  for (const NewVertex& vertex : vertices) out.push_back(atlas.vertex_meshes[atlas.corner_vertices[vertex.corners[0]]]);
+  return out;
+}
+
 /// True where every division of the outline of an undivided face that was positive in the input still is.
 bool reads_as_before(const FaceReading& before, const std::vector<Vec2>& uvs) {
   bool fan = true;
@@ -301,6 +322,7 @@ CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut,
     }
   }
   out.mesh.new_seams = seams_of(in, points);
+  out.vertex_meshes = meshes_with(atlas, points.vertices);
   out.mesh.new_vertices = std::move(points.vertices);
   return out;
 }

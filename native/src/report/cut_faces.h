@@ -14,6 +14,7 @@ struct CutFaces {
   CutMesh mesh;
   std::vector<CornerRef> corners;  ///< one per corner: piece and its vertex
   std::vector<Vec3> positions;     ///< of all vertices, the input's first
+  std::vector<int> vertex_meshes;  ///< as Atlas::vertex_meshes, of all vertices
 };
 
 /// What cut_faces() needs beside the atlas.

@@ -32,6 +32,13 @@ Freedoms freedom_of(const ChartSet& set, const RefineOptions& options) {
   return freedom_of(set.charts, options.keep_shape, options.locked);
 }
 
+Freedoms freedom_of_pieces(const Freedoms& of_charts, const CutAtlas& atlas) {
+  Freedoms out;
+  if (of_charts.empty()) return out;
+  for (const Piece& piece : atlas.pieces) out.push_back(of_charts[piece.chart]);
+  return out;
+}
+
 void excuse_fixed(ChartSet& set, const Freedoms& freedom) {
   if (!any_fixed(freedom)) return;
   std::erase_if(set.defects, [&](const FaceDefect& defect) { return is_fixed(freedom, defect.chart); });
@@ -70,11 +77,19 @@ bool lies_in_texture(const std::vector<Chart>& charts, const Freedoms& freedom, 
   return true;
 }
 
-void restore_fixed(const InputAtlas& input, const Freedoms& freedom, std::vector<std::vector<Vec2>>& uvs) {
+void restore_fixed(const InputAtlas& input, const CutAtlas& atlas, const Freedoms& freedom, std::vector<std::vector<Vec2>>& uvs) {
   if (!any_fixed(freedom)) return;
+  std::vector<std::vector<Vec2>> given;
+  for (const Chart& chart : input.set.charts) given.emplace_back(chart.vertex_count());
   for (std::size_t corner = 0; corner < input.set.corners.size(); ++corner) {
     const CornerRef& at = input.set.corners[corner];
-    if (at.chart >= 0 && is_fixed(freedom, at.chart)) uvs[at.chart][at.vertex] = input.atlas.corner_uvs[corner];
+    if (at.chart >= 0) given[at.chart][at.vertex] = input.atlas.corner_uvs[corner];
+  }
+  for (std::size_t p = 0; p < uvs.size(); ++p) {
+    const Piece& piece = atlas.pieces[p];
+    for (std::size_t v = 0; v < uvs[p].size() && is_fixed(freedom, piece.chart); ++v) {
+      if (piece.vertices[v] >= 0) uvs[p][v] = given[piece.chart][piece.vertices[v]];
+    }
   }
 }
 

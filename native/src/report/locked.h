@@ -4,6 +4,7 @@
 #include <string>
 
 #include "atlas_refine/result.h"
+#include "cut/cut_atlas.h"
 #include "geometry/freedom.h"
 #include "input/stacks.h"
 #include "report/measure_atlas.h"
@@ -12,6 +13,9 @@ namespace atlas_refine {
 
 /// What the options allow with each chart.
 Freedoms freedom_of(const ChartSet& set, const RefineOptions& options);
+
+/// What each piece's chart allows.
+Freedoms freedom_of_pieces(const Freedoms& of_charts, const CutAtlas& atlas);
 
 /// Defects of fixed charts do not count, and those that are mirrored stay so.
 void excuse_fixed(ChartSet& set, const Freedoms& freedom);
@@ -27,8 +31,8 @@ void put_in_texture(InputAtlas& input, const RefineOptions& options);
 /// Every chart that is not fixed lies in the texture, whose corner is at 0.
 bool lies_in_texture(const std::vector<Chart>& charts, const Freedoms& freedom, double box_aspect);
 
-/// Writes the input's UVs of fixed charts over those of an atlas that was not cut, one array per chart.
-void restore_fixed(const InputAtlas& input, const Freedoms& freedom, std::vector<std::vector<Vec2>>& uvs);
+/// Writes the input's UVs of fixed charts over those of the pieces that they are.
+void restore_fixed(const InputAtlas& input, const CutAtlas& atlas, const Freedoms& freedom, std::vector<std::vector<Vec2>>& uvs);
 
 /// Corners of locked charts get what they had, also where noise made corners of one vertex differ.
 void restore_locked_corners(const InputAtlas& whole, const RefineOptions& options, RefineResult& result);

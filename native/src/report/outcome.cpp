@@ -97,7 +97,7 @@ void summarise(const InputAtlas& whole, const Participants& participants, const 
     }
     if (!options.groups.empty())
       result.groups.push_back({part.group, name_of(part.group, options), outcome.before.chart_count, outcome.intervention,
-                               outcome.bound_met, outcome.before, outcome.after, outcome.gap});
+                               outcome.bound_met, outcome.reason, outcome.before, outcome.after, outcome.gap});
   }
 }
 

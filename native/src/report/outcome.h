@@ -18,6 +18,7 @@ struct Outcome {
   Triangulations triangulations;
   Intervention intervention = Intervention::Unchanged;
   bool bound_met = false;
+  std::string reason;  ///< why it is left as it is, though below the bound
   Gap gap;
   double price = 0;
   Ended ended = Ended::NotRun;
