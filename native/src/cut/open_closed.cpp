@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kMostTips = 40;       // of the tree that opens a chart
 constexpr int kPatience = 4;        // seams added in vain before the search ends
-constexpr double kSeamWorth = 0.1;  // E_d that a seam as long as the root of the area must save
+constexpr double kSeamWorth = 0.1;  // of the forecast, that a seam as long as the root of the area must save: of E_d a quarter
 constexpr int kRoots = 8;           // tried for the loops around handles
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
@@ -166,6 +166,18 @@ std::set<int> shortest_handle_loops(const Chart& chart, const Graph& graph, int 
   return best;
 }
 
+/// A vertex of the largest part that cuts can reach; -1 where they cannot run anywhere.
+int reachable_vertex(const Graph& graph) {
+  DisjointSets parts(graph.around.size());
+  for (const Edge& edge : graph.edges) {
+    if (edge.may_open()) parts.unite(edge.ends[0], edge.ends[1]);
+  }
+  std::vector<int> sizes(graph.around.size(), 0);
+  for (int v = 0; v < static_cast<int>(sizes.size()); ++v) ++sizes[parts.find(v)];
+  const auto largest = std::max_element(sizes.begin(), sizes.end());
+  return *largest > 1 ? static_cast<int>(largest - sizes.begin()) : -1;
+}
+
 /// Cuts that grow from a first vertex or loops, each time to the vertex that would be scaled most; in the end the first of them,
 /// as many as are worth their length.
 class GrowingCuts {
@@ -177,8 +189,9 @@ class GrowingCuts {
     }
   }
 
-  std::set<int> grown(std::set<int> cuts, int first) {
-    border_[first] = 1;
+  /// Without cuts to start from it starts at what is scaled most if `end` is held, a corner of a box or the tip of a horn.
+  std::set<int> grown(std::set<int> cuts, int end) {
+    if (cuts.empty()) border_[opposite(end)] = 1;
     for (const int v : ends_of(graph_, cuts)) border_[v] = 1;
     std::set<int> best;
     double least = kFar;
@@ -199,19 +212,32 @@ class GrowingCuts {
   }
 
  private:
+  /// Of the vertices that seams from the border can reach; -1 where there is none.
+  int most_scaled(const std::vector<double>& scales, const Distances& from_border) const {
+    int tip = -1;
+    for (int v = 0; v < static_cast<int>(border_.size()); ++v) {
+      if (border_[v] || from_border.distance[v] == kFar) continue;
+      if (tip < 0 || std::abs(scales[v]) > std::abs(scales[tip])) tip = v;
+    }
+    return tip;
+  }
+
+  int opposite(int end) {
+    border_[end] = 1;
+    const int tip = most_scaled(forecast_.logarithms(border_), distances_from(graph_, {end}));
+    border_[end] = 0;
+    return tip < 0 ? end : tip;
+  }
+
   bool grow_to_most_scaled(const std::vector<double>& scales, std::set<int>& cuts) {
     std::vector<int> sources;
     for (int v = 0; v < static_cast<int>(border_.size()); ++v) {
       if (border_[v]) sources.push_back(v);
     }
-    const Distances from_cuts = distances_from(graph_, sources);
-    int tip = -1;
-    for (int v = 0; v < static_cast<int>(border_.size()); ++v) {
-      if (border_[v] || from_cuts.distance[v] == kFar) continue;
-      if (tip < 0 || std::abs(scales[v]) > std::abs(scales[tip])) tip = v;
-    }
+    const Distances from_border = distances_from(graph_, sources);
+    const int tip = most_scaled(scales, from_border);
     if (tip < 0) return false;
-    add_path(graph_, from_cuts, tip, cuts);
+    add_path(graph_, from_border, tip, cuts);
     for (const int v : ends_of(graph_, cuts)) border_[v] = 1;
     return true;
   }
@@ -241,9 +267,9 @@ bool fits_plane(const Chart& chart) {
 std::vector<std::array<int, 2>> opening_edges(const Chart& chart, const SidePrices& prices) {
   const Graph graph = graph_of(chart, prices);
   const ChartShape shape = shape_of(chart);
-  const auto passable = std::find_if(graph.edges.begin(), graph.edges.end(), [](const Edge& e) { return e.may_open(); });
-  if (shape.fits_plane() || passable == graph.edges.end()) return {};
-  const int end = distances_from(graph, {passable->ends[0]}).farthest();
+  const int start = reachable_vertex(graph);
+  if (shape.fits_plane() || start < 0) return {};
+  const int end = distances_from(graph, {start}).farthest();
   std::set<int> cuts;
   if (shape.handles > 0) cuts = shortest_handle_loops(chart, graph, end);
   if (shape.handles > 0 && cuts.empty()) return {};
