@@ -71,6 +71,13 @@ TEST(UnwrapTiles, LargeFacesStay) {
   EXPECT_TRUE(unwrap_tiles(wide, {}, {}).faces.empty());
 }
 
+TEST(UnwrapTiles, AMapThatIsFoldedElsewhereTooIsLeftToOthers) {
+  Atlas atlas = tube(24, 5);
+  // Four columns run backwards, and span next to nothing.
+  for (Vec2& uv : atlas.corner_uvs) uv.x() = uv.x() > 0.3 && uv.x() < 0.5 ? 0.8 - uv.x() : uv.x();
+  EXPECT_TRUE(unwrap_tiles(atlas, {}, {}).faces.empty());
+}
+
 TEST(UnwrapTiles, ChartsThatAreKeptStay) {
   const Atlas atlas = tube(24, 5);
   std::vector<char> kept(atlas.face_count(), 0);
@@ -83,6 +90,7 @@ TEST(UnwrapTiles, AWrappedTubeStaysOneChartAndFlat) {
   const RefineResult result = refine(atlas, {.pe_bound = 0.9});
   EXPECT_EQ(result.charts.size(), 1u);
   EXPECT_EQ(result.added_seams, 5);
+  EXPECT_EQ(result.new_seams.size(), 5u);
   ASSERT_EQ(result.repairs.size(), 1u);
   EXPECT_EQ(result.repairs[0].faces.size(), 5u);
   EXPECT_LT(result.after.distortion, 1.2);

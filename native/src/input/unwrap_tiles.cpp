@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kMostWrapped = 0.5;    // of a chart's area in space, or there is nothing to go by
 constexpr double kFlipped = 2;          // what a face that lies against its chart is worse by, in e-folds of its density
+constexpr double kMostAgainst = 0.1;    // faces left the wrong way round, per face that is moved
 constexpr double kClearlyBetter = 0.5;  // likewise
 
 /// The corners of the face moved by whole tiles so that no edge is longer than half a tile in u or v; none is moved down.
@@ -54,7 +55,10 @@ struct Lie {
   double signed_uv_area = 0, uv_area = 0, area = 0;
   double spanned = 0;  // area in space of the others
   bool kept = false;
+  int movable = 0, against = 0;  // faces that another image suits better, and others that lie the wrong way round
 
+  /// Where many faces lie the wrong way round for other reasons, the map does not start again: it is folded.
+  bool is_mended() const { return against <= kMostAgainst * movable; }
   bool tells() const { return !kept && uv_area > 0 && area > 0 && spanned <= kMostWrapped * (area + spanned); }
 
   /// How badly a face fits: by density, and by orientation.
@@ -72,12 +76,19 @@ class Unwrapping {
 
   UnwrappedTiles run(const std::vector<char>& kept) {
     measure(kept);
+    std::vector<std::vector<Vec2>> images(atlas_.face_count());  // of the faces that fit better so
+    for (int f = 0; f < atlas_.face_count(); ++f) {
+      if (spans_[f]) images[f] = better_image(f);
+      Lie& lie = lies_[charts_of_.find(f)];
+      if (!images[f].empty())
+        ++lie.movable;
+      else if (sign(f) * doubled_uv_area(atlas_, f) * lie.signed_uv_area < 0)
+        ++lie.against;
+    }
     UnwrappedTiles out{.faces = {}, .corner_uvs = atlas_.corner_uvs, .torn = {}};
     for (int f = 0; f < atlas_.face_count(); ++f) {
-      if (!spans_[f]) continue;
-      const std::vector<Vec2> moved = nearest_images(atlas_, f);
-      if (!fits_better(f, moved)) continue;
-      std::copy(moved.begin(), moved.end(), out.corner_uvs.begin() + atlas_.face_offsets[f]);
+      if (images[f].empty() || !lies_[charts_of_.find(f)].is_mended()) continue;
+      std::copy(images[f].begin(), images[f].end(), out.corner_uvs.begin() + atlas_.face_offsets[f]);
       out.faces.push_back(f);
     }
     if (out.faces.empty()) return {};
@@ -103,12 +114,15 @@ class Unwrapping {
     }
   }
 
-  bool fits_better(int face, const std::vector<Vec2>& moved) {
+  /// The nearest images of the face's corners where it fits its chart clearly better there; else nothing.
+  std::vector<Vec2> better_image(int face) {
     const Lie& lie = lies_[charts_of_.find(face)];
-    if (!lie.tells()) return false;
+    if (!lie.tells()) return {};
     const double in_space = doubled_area_in_space(atlas_, face);
     const double before = lie.misfit(sign(face) * doubled_uv_area(atlas_, face), in_space);
-    return lie.misfit(sign(face) * doubled_area(moved), in_space) + kClearlyBetter < before;
+    std::vector<Vec2> moved = nearest_images(atlas_, face);
+    const double after = lie.misfit(sign(face) * doubled_area(moved), in_space);
+    return after + kClearlyBetter < before ? moved : std::vector<Vec2>();
   }
 
   /// Edges that were joined and whose sides differ now; those between two moved faces are met twice.

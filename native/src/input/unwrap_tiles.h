@@ -16,8 +16,8 @@ struct UnwrappedTiles {
   std::vector<std::array<int, 2>> torn;  ///< edges, as the corners that their uses start from, that are seams now
 };
 
-/// Moves some corners of faces that span more than half a tile, and then lie and are scaled as most of their chart. Faces that
-/// have a flag in `kept`, and their charts, stay.
+/// Moves some corners of faces that span more than half a tile, and then lie and are scaled as most of their chart, where that
+/// mends the chart. Faces that have a flag in `kept`, and their charts, stay.
 UnwrappedTiles unwrap_tiles(const Atlas& atlas, const std::vector<int>& groups, const std::vector<char>& kept);
 
 }  // namespace atlas_refine

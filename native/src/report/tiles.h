@@ -14,7 +14,7 @@ Atlas with_corner_uvs(Atlas atlas, const std::vector<Vec2>& uvs);
 /// Charts that are left as they are keep what they had in the `input`.
 void restore_left(const Atlas& input, const ChartSet& set, const Participants& participants, AssembledAtlas& assembled);
 
-/// Names the faces that were moved, and counts the edges that are seams for that.
+/// Names the faces that were moved, and the edges that are seams for that.
 void tell_of_tiles(const UnwrappedTiles& tiles, const InputAtlas& whole, const Participants& participants, RefineResult& result,
                    Journal& journal);
 
