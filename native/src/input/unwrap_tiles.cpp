@@ -57,8 +57,10 @@ struct Lie {
   bool kept = false;
   int movable = 0, against = 0;  // faces that another image suits better, and others that lie the wrong way round
 
-  /// Where many faces lie the wrong way round for other reasons, the map does not start again: it is folded.
-  bool is_mended() const { return against <= kMostAgainst * movable; }
+  bool parted = false;  // with these images
+
+  /// Where the chart falls apart, or many faces lie the wrong way round for other reasons, the map does not start again.
+  bool is_mended() const { return !parted && against <= kMostAgainst * movable; }
   bool tells() const { return !kept && uv_area > 0 && area > 0 && spanned <= kMostWrapped * (area + spanned); }
 
   /// How badly a face fits: by density, and by orientation.
@@ -85,12 +87,8 @@ class Unwrapping {
       else if (sign(f) * doubled_uv_area(atlas_, f) * lie.signed_uv_area < 0)
         ++lie.against;
     }
-    UnwrappedTiles out{.faces = {}, .corner_uvs = atlas_.corner_uvs, .torn = {}};
-    for (int f = 0; f < atlas_.face_count(); ++f) {
-      if (images[f].empty() || !lies_[charts_of_.find(f)].is_mended()) continue;
-      std::copy(images[f].begin(), images[f].end(), out.corner_uvs.begin() + atlas_.face_offsets[f]);
-      out.faces.push_back(f);
-    }
+    mark_parted(moved(images).corner_uvs);
+    UnwrappedTiles out = moved(images);
     if (out.faces.empty()) return {};
     for (const int f : out.faces) find_torn(f, out);
     return out;
@@ -125,17 +123,46 @@ class Unwrapping {
     return after + kClearlyBetter < before ? moved : std::vector<Vec2>();
   }
 
+  /// The charts that other images mend, with these.
+  UnwrappedTiles moved(const std::vector<std::vector<Vec2>>& images) {
+    UnwrappedTiles out{.faces = {}, .corner_uvs = atlas_.corner_uvs, .torn = {}};
+    for (int f = 0; f < atlas_.face_count(); ++f) {
+      if (images[f].empty() || !lies_[charts_of_.find(f)].is_mended()) continue;
+      std::copy(images[f].begin(), images[f].end(), out.corner_uvs.begin() + atlas_.face_offsets[f]);
+      out.faces.push_back(f);
+    }
+    return out;
+  }
+
+  /// Marks the charts that would fall apart.
+  void mark_parted(const std::vector<Vec2>& uvs) {
+    DisjointSets parts(atlas_.face_count());
+    for (int c = 0; c < atlas_.corner_count(); ++c) {
+      if (joins_.partners[c] > c && !is_torn(c, uvs))
+        parts.unite(joins_.corner_faces[c], joins_.corner_faces[joins_.partners[c]]);
+    }
+    for (int f = 0; f < atlas_.face_count(); ++f) {
+      const int chart = charts_of_.find(f);
+      if (parts.find(f) != parts.find(chart)) lies_[chart].parted = true;
+    }
+  }
+
+  /// Whether the sides of a joined edge are apart: noise between them is no tile.
+  bool is_torn(int c, const std::vector<Vec2>& uvs) const {
+    const int other = joins_.partners[c];
+    const int end = joins_.next_corner(atlas_, c), other_end = joins_.next_corner(atlas_, other);
+    const auto [from, to] = joins_.alike[c] ? std::pair(other, other_end) : std::pair(other_end, other);
+    const auto apart = [&](int a, int b) { return (uvs[a] - uvs[b]).cwiseAbs().maxCoeff() > 0.5; };
+    return apart(c, from) || apart(end, to);
+  }
+
   /// Edges that were joined and whose sides differ now; those between two moved faces are met twice.
   void find_torn(int face, UnwrappedTiles& out) const {
+    const auto is_moved = [&](int f) { return std::binary_search(out.faces.begin(), out.faces.end(), f); };
     for (int c = atlas_.face_offsets[face]; c < atlas_.face_offsets[face + 1]; ++c) {
       const int other = joins_.partners[c];
-      if (other < 0 || (std::binary_search(out.faces.begin(), out.faces.end(), joins_.corner_faces[other]) && other < c))
-        continue;
-      const int end = joins_.next_corner(atlas_, c), other_end = joins_.next_corner(atlas_, other);
-      const auto [from, to] = joins_.alike[c] ? std::pair(other, other_end) : std::pair(other_end, other);
-      // Noise between joined corners is no tile.
-      const auto apart = [&](int a, int b) { return (out.corner_uvs[a] - out.corner_uvs[b]).cwiseAbs().maxCoeff() > 0.5; };
-      if (apart(c, from) || apart(end, to)) out.torn.push_back({c, other});
+      if (other < 0 || (other < c && is_moved(joins_.corner_faces[other]))) continue;
+      if (is_torn(c, out.corner_uvs)) out.torn.push_back({c, other});
     }
   }
 
