@@ -55,12 +55,14 @@ struct Lie {
   double signed_uv_area = 0, uv_area = 0, area = 0;
   double spanned = 0;  // area in space of the others
   bool kept = false;
-  int movable = 0, against = 0;  // faces that another image suits better, and others that lie the wrong way round
+  int turned = 0, unturned = 0;  // faces that another image suits better: that lie the wrong way round, and that do not
+  int against = 0;               // others that lie the wrong way round
 
   bool parted = false;  // with these images
 
-  /// Where the chart falls apart, or many faces lie the wrong way round for other reasons, the map does not start again.
-  bool is_mended() const { return !parted && against <= kMostAgainst * movable; }
+  /// Where the chart falls apart, or lies all one way before, or still does not, its map does not start again. (A face that
+  /// runs back in u and in v is turned over twice.)
+  bool is_mended() const { return !parted && turned > unturned && against <= kMostAgainst * turned; }
   bool tells() const { return !kept && uv_area > 0 && area > 0 && spanned <= kMostWrapped * (area + spanned); }
 
   /// How badly a face fits: by density, and by orientation.
@@ -82,10 +84,11 @@ class Unwrapping {
     for (int f = 0; f < atlas_.face_count(); ++f) {
       if (spans_[f]) images[f] = better_image(f);
       Lie& lie = lies_[charts_of_.find(f)];
-      if (!images[f].empty())
-        ++lie.movable;
-      else if (sign(f) * doubled_uv_area(atlas_, f) * lie.signed_uv_area < 0)
-        ++lie.against;
+      const bool against = sign(f) * doubled_uv_area(atlas_, f) * lie.signed_uv_area < 0;
+      if (images[f].empty())
+        lie.against += against;
+      else
+        ++(against ? lie.turned : lie.unturned);
     }
     mark_parted(moved(images).corner_uvs);
     UnwrappedTiles out = moved(images);
