@@ -57,8 +57,7 @@ struct Lie {
   bool kept = false;
   int turned = 0, unturned = 0;  // faces that another image suits better: that lie the wrong way round, and that do not
   int against = 0;               // others that lie the wrong way round
-
-  bool parted = false;  // with these images
+  bool parted = false;           // with these images
 
   /// Where the chart falls apart, or lies all one way before, or still does not, its map does not start again. (A face that
   /// runs back in u and in v is turned over twice.)
