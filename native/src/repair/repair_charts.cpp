@@ -19,8 +19,8 @@ namespace {
 
 using What = ChartRepair::What;
 
-constexpr double kShapeLost =
-    1.5;  // E_2 above which an embedding anew may serve better, and E_d of UVs whose shapes are none to keep
+// E_2 above which an embedding anew may serve better, and E_d above which UVs have no shape worth keeping.
+constexpr double kShapeLost = 1.5;
 
 /// One chart after its repair, or why it has none.
 struct Mended {
