@@ -34,9 +34,9 @@ inline Atlas torus(int around, int tube, int holes = 0) {
   return atlas;
 }
 
-/// A cube of n x n quads a side, its vertices on a sphere; doubled vertices along the cube's edges lie at equal positions. UVs:
+/// A cube of n x n quads a side; doubled vertices along the cube's edges lie at equal positions. UVs:
 /// seen from above.
-inline Atlas cube_sphere(int n) {
+inline Atlas cube(int n) {
   Atlas atlas;
   for (int side = 0; side < 6; ++side) {
     const int first = static_cast<int>(atlas.positions.size());
@@ -47,13 +47,22 @@ inline Atlas cube_sphere(int n) {
       p[axis] = n * sign;
       p[(axis + 1) % 3] = (2 * (k % (n + 1)) - n) * sign;
       p[(axis + 2) % 3] = 2 * (k / (n + 1)) - n;
-      atlas.positions.push_back(p / std::sqrt(p.dot(p)));
+      atlas.positions.push_back(p / n);
     }
     for (int f = 0; f < n * n; ++f) {
       const int at = first + f / n * (n + 1) + f % n;
       add_quad(atlas, {at, at + 1, at + n + 2, at + n + 1});
     }
   }
+  return atlas;
+}
+
+/// The same with its vertices on a sphere.
+inline Atlas cube_sphere(int n) {
+  Atlas atlas = cube(n);
+  for (std::size_t v = 0; v < atlas.positions.size(); ++v)
+    atlas.positions[v] /= std::sqrt(atlas.positions[v].dot(atlas.positions[v]));
+  for (int c = 0; c < atlas.corner_count(); ++c) atlas.corner_uvs[c] = atlas.positions[atlas.corner_vertices[c]].head<2>();
   return atlas;
 }
 

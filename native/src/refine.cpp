@@ -8,6 +8,7 @@
 #include "input/check_atlas.h"
 #include "input/join_edges.h"
 #include "input/take_part.h"
+#include "input/unwrap_tiles.h"
 #include "one_atlas.h"
 #include "report/assemble.h"
 #include "report/kept_faces.h"
@@ -15,6 +16,7 @@
 #include "report/note_repairs.h"
 #include "report/options.h"
 #include "report/outcome.h"
+#include "report/tiles.h"
 #include "support/monitor.h"
 
 namespace atlas_refine {
@@ -105,9 +107,19 @@ Joining joining_after(const Participants& participants, const std::vector<Done>&
   return participants.left.empty() && std::all_of(done.begin(), done.end(), changed) ? Joining::Exact : Joining::AsMeant;
 }
 
-RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, const RefineOptions& options, Monitor& monitor,
+/// One flag per face where either has one; empty where neither has any.
+std::vector<char> either(const std::vector<char>& one, const std::vector<char>& other) {
+  std::vector<char> out = one.empty() ? other : one;
+  for (std::size_t f = 0; f < other.size(); ++f) out[f] = out[f] || other[f];
+  return out;
+}
+
+RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, const RefineOptions& options, Monitor& monitor,
                           Journal& journal) {
   journal.begin_stage("input", kInput);
+  const UnwrappedTiles tiles = unwrap_tiles(input, options.groups, either(options.locked, options.keep_shape));
+  const Atlas unwrapped = tiles.faces.empty() ? Atlas() : with_corner_uvs(input, tiles.corner_uvs);
+  const Atlas& atlas = tiles.faces.empty() ? input : unwrapped;
   const InputAtlas whole = read_atlas(atlas, options.box_aspect, options.groups);
   Participants participants = take_part(whole.set, options, has_uvs);
   journal.show("input", charts_as_placed(whole.set));
@@ -120,8 +132,9 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   AssembledAtlas assembled =
       assemble(whole, participants, refined_parts(done),
                {.stored = options.stored, .divide = divides_faces(options), .triangulate = options.triangulate});
+  if (!tiles.faces.empty()) restore_left(input, whole.set, participants, assembled);
   const SeamCount seams = options.groups.empty() ? seams_of(whole.set) : seams_of(join_edges(atlas, Joining::AsMeant));
-  measure_seams(atlas, seams, result.before);
+  measure_seams(input, tiles.faces.empty() ? seams : seams_of(join_edges(input, Joining::AsMeant)), result.before);
   measure_seams(assembled.mesh, seams_of(join_edges(assembled.mesh, joining_after(participants, done))), result.after);
   const int between_groups = whole.set.seam_edges - seams.edges;
   if (between_groups > 0)
@@ -132,6 +145,7 @@ RefineResult refine_atlas(const Atlas& atlas, const std::vector<char>& has_uvs, 
   result.cut = std::move(assembled.cut);
   result.new_seams = std::move(assembled.new_seams);
   restore_locked_corners(whole, options, result);
+  if (!tiles.faces.empty()) tell_of_tiles(tiles, whole, participants, result, journal);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "charts.h"
 #include "closed_shapes.h"
 #include "cut/cut_atlas.h"
+#include "cut/scale_forecast.h"
 #include "shapes.h"
 
 namespace atlas_refine {
@@ -71,6 +72,19 @@ TEST(OpenClosed, RunsAlongEdgesOfFacesOnly) {
   }
   ASSERT_EQ(diagonals.size(), static_cast<std::size_t>(atlas.face_count()));
   for (const auto& [a, b] : opening_edges(chart)) EXPECT_FALSE(diagonals.contains(std::minmax(a, b)));
+}
+
+TEST(OpenClosed, ForecastOfAConeIsItsCurvature) {
+  // Nothing is scaled where every vertex with curvature lies on the border.
+  const Chart chart = only_chart(shapes::cube(1));
+  ScaleForecast forecast(chart);
+  std::vector<char> border(chart.vertex_count(), 1);
+  EXPECT_NEAR(forecast.energy(forecast.logarithms(border)), 1, 1e-9);
+  border[3] = 0;
+  const double one_corner = forecast.energy(forecast.logarithms(border));
+  EXPECT_GT(one_corner, 1.01);
+  border[4] = 0;
+  EXPECT_GT(forecast.energy(forecast.logarithms(border)), one_corner);
 }
 
 TEST(OpenClosed, LoopsOfATorusAreShort) {

@@ -32,11 +32,11 @@ Chart sheet(int columns, int rows, bool closed, const Point& point) {
 
 double embedded_energy(const Chart& chart) {
   Monitor monitor;
-  const auto embedded = embed(chart, 2, monitor);
+  const auto embedded = embed(chart, Shapes::OfSurface, 2, monitor);
   if (!embedded) return std::numeric_limits<double>::infinity();
   testing::expect_certified({*embedded});
   EXPECT_EQ(embedded->triangles, chart.triangles);
-  const auto again = embed(chart, 1, monitor);
+  const auto again = embed(chart, Shapes::OfSurface, 1, monitor);
   EXPECT_TRUE(testing::same_bits(embedded->uvs, again->uvs));
   return dirichlet_sums(*embedded).best_energy();
 }
@@ -80,6 +80,35 @@ TEST(Embed, ManyHolesStayOpen) {
 
 TEST(Embed, ACombIsNotCrushed) {
   EXPECT_LT(embedded_energy(testing::charts_of(shapes::mesh(shapes::comb(12), 0.03, 0)).at(0)), 1.02);
+}
+
+/// A dome of quads, seen from above in the UV map: all of them are convex there.
+Chart dome() {
+  constexpr int n = 24;
+  Atlas atlas = shapes::quad_grid(n, n);
+  for (Vec3& p : atlas.positions) {
+    const double x = p.x() - 0.5, y = p.y() - 0.5;
+    p.z() = 1.2 * std::exp(-12 * (x * x + y * y)) + 0.1 * std::sin(23 * x + 11 * y);
+  }
+  return testing::charts_of(atlas).at(0);
+}
+
+TEST(Embed, QuadsThatWereConvexStayConvex) {
+  const Chart chart = dome();
+  ASSERT_GT(chart.guards.size(), 0u);
+  Monitor monitor;
+  const auto embedded = embed(chart, Shapes::OfSurface, 2, monitor);
+  ASSERT_TRUE(embedded);
+  testing::expect_certified({*embedded});
+  EXPECT_EQ(embedded->guards.size(), chart.guards.size());
+}
+
+TEST(Embed, FromValidUvsTheirShapesComeBack) {
+  const Chart chart = dome();
+  Monitor monitor;
+  const auto embedded = embed(chart, Shapes::OfUvs, 2, monitor);
+  ASSERT_TRUE(embedded);
+  EXPECT_LT(dirichlet_sums_between({chart}, {*embedded}).best_energy(), 1.0001);
 }
 
 }  // namespace

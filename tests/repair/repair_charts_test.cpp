@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <set>
 
 #include "atlas_refine/refine.h"
 #include "charts.h"
@@ -126,7 +128,8 @@ TEST(RepairCharts, AStripThatOverlapsItselfIsUnwound) {
   ASSERT_FALSE(certify_charts(charts).valid());
   const RepairedCharts out = repaired(charts);
   ASSERT_EQ(out.repairs.size(), 1u);
-  EXPECT_EQ(out.repairs[0].what, What::Embedded);
+  EXPECT_EQ(out.repairs[0].what, What::DrawnApart);
+  EXPECT_LT(out.repairs[0].distortion_to_input, 1.08);
   const Chart& embedded = out.atlas.pieces[0].mesh;
   testing::expect_certified({embedded});
   EXPECT_EQ(embedded.triangles, charts[0].triangles);
@@ -135,6 +138,48 @@ TEST(RepairCharts, AStripThatOverlapsItselfIsUnwound) {
   EXPECT_NEAR(dirichlet_sums(embedded).best_scale(), 1, 0.02);
   const double far_arc = kFarArc * testing::box_sides({embedded}).norm();
   EXPECT_GT(gap_within_charts({embedded}, far_arc, 1)[0], 0.5 * 0.0025 * testing::box_sides({embedded}).norm());
+}
+
+/// Columns x rows quads of a straight strip in space, laid in the UV map as `uv(i, j)` says.
+template <class Uv>
+Atlas strip_laid(int columns, int rows, const Uv& uv) {
+  std::vector<Vec3> positions;
+  std::vector<std::vector<int>> faces;
+  for (int k = 0; k < (columns + 1) * (rows + 1); ++k) positions.emplace_back(k % (columns + 1), k / (columns + 1), 0);
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      const int a = j * (columns + 1) + i;
+      faces.push_back({a, a + 1, a + columns + 2, a + columns + 1});
+    }
+  }
+  Atlas atlas = flat_atlas(positions, faces);
+  for (Vec2& corner : atlas.corner_uvs) corner = uv(corner.x(), corner.y());
+  return atlas;
+}
+
+TEST(RepairCharts, EndsThatOverlapAreDrawnApartAndTheRestKeepsItsShape) {
+  // A ring a little more than once around: bent by the artist, as the strip in space is straight.
+  const Atlas atlas = strip_laid(60, 4, [](double i, double j) {
+    const double angle_rad = 2.06 * std::numbers::pi * i / 60;
+    return Vec2((10 - j) * std::cos(angle_rad), (10 - j) * std::sin(angle_rad));
+  });
+  const Chart before = testing::charts_of(atlas).at(0);
+  const ChartRepair repair = only_repair(atlas);
+  EXPECT_EQ(repair.what, What::DrawnApart);
+  EXPECT_LT(repair.distortion_to_input, 1.005);
+  const Chart after = repaired({before}).atlas.pieces[0].mesh;
+  EXPECT_LT(dirichlet_sums(after).best_energy(), dirichlet_sums(before).best_energy() + 1e-3);
+  EXPECT_EQ(after.guards.size(), before.guards.size());
+}
+
+TEST(RepairCharts, OverlappingUvsThatAreNoShapeToKeepAreEmbeddedAnew) {
+  const Atlas atlas = strip_laid(60, 4, [](double i, double j) {
+    const double angle_rad = 2.5 * std::numbers::pi * i / 60;
+    return Vec2((10 - 2.4 * j) * std::cos(angle_rad), 0.2 * (10 - 2.4 * j) * std::sin(angle_rad));
+  });
+  const ChartRepair repair = only_repair(atlas);
+  EXPECT_EQ(repair.what, What::Embedded);
+  EXPECT_LT(dirichlet_sums(repaired(testing::charts_of(atlas)).atlas.pieces[0].mesh).best_energy(), 1.001);
 }
 
 TEST(RepairCharts, WhereChartsMayOverlapOnlyFlipsAreMended) {
@@ -175,8 +220,73 @@ TEST(RepairCharts, ClosedChartsAreOpenedWherePermitted) {
   }
 }
 
+TEST(RepairCharts, ACubeBecomesACrossOrAnotherNet) {
+  const RepairedCharts out = repaired(shapes::unparted(shapes::cube(1)), {.open_closed = true});
+  ASSERT_TRUE(out.unmended.empty());
+  EXPECT_EQ(out.atlas.seams.size(), 7u);
+  EXPECT_LT(dirichlet_sums(out.atlas.pieces[0].mesh).best_energy(), 1.0005);
+}
+
+TEST(RepairCharts, ACubeOfManyFacesIsOpenedAlongItsSharpEdges) {
+  Atlas atlas = shapes::cube(4);
+  for (Vec2& uv : atlas.corner_uvs) uv = {0.5, 0.5};
+  const RefineResult result = refine(atlas, {.pe_bound = 0.4, .open_closed = true, .collapsed = Collapsed::Embed});
+  EXPECT_EQ(result.new_seams.size(), 7u * 4);
+  EXPECT_LT(result.after.distortion, 1.01);
+}
+
+/// Wrapped around, but not by a whole tile: nobody can tell that from a closed chart.
+Atlas closed_torus() {
+  Atlas atlas = shapes::wrapped(shapes::torus(24, 12));
+  for (Vec2& uv : atlas.corner_uvs) uv *= 0.45;
+  return atlas;
+}
+
+using VertexPairs = std::vector<std::array<int, 2>>;
+
+/// Edges of torus(24, 12) around the tube at column i, and once around the torus at row j.
+VertexPairs loops_of_torus(int i, int j) {
+  VertexPairs out;
+  for (int k = 0; k < 12; ++k) out.push_back({i * 12 + k, i * 12 + (k + 1) % 12});
+  for (int k = 0; k < 24; ++k) out.push_back({k * 12 + j, (k + 1) % 24 * 12 + j});
+  return out;
+}
+
+std::set<std::pair<int, int>> as_set(const VertexPairs& pairs) {
+  std::set<std::pair<int, int>> out;
+  for (const auto& [a, b] : pairs) out.insert(std::minmax(a, b));
+  return out;
+}
+
+TEST(RepairCharts, OpeningsKeepOffEdgesThatMustStayWhole) {
+  RefineOptions options{.pe_bound = 0.6, .open_closed = true};
+  const RefineResult free = refine(closed_torus(), options);
+  options.no_seam = free.new_seams;
+  const RefineResult other = refine(closed_torus(), options);
+  ASSERT_FALSE(other.new_seams.empty());
+  const auto forbidden = as_set(options.no_seam);
+  for (const auto& [a, b] : other.new_seams) EXPECT_FALSE(forbidden.contains(std::minmax(a, b)));
+}
+
+TEST(RepairCharts, OpeningsFollowPreferredEdges) {
+  const VertexPairs loops = loops_of_torus(7, 4);
+  const RefineResult result = refine(closed_torus(), {.pe_bound = 0.6, .open_closed = true, .prefer_seam = loops});
+  const auto seams = as_set(result.new_seams);
+  for (const auto& pair : loops) EXPECT_TRUE(seams.contains(std::minmax(pair[0], pair[1])));
+}
+
+TEST(RepairCharts, WhereNoEdgeMayOpenTheChartIsLeftAndTold) {
+  const Atlas atlas = closed_torus();
+  RefineOptions options{.pe_bound = 0.6, .open_closed = true};
+  for (int i = 0; i < 24; ++i) {
+    for (const auto& pair : loops_of_torus(i, i % 12)) options.no_seam.push_back(pair);
+  }
+  const RefineError refused = testing::refusal(atlas, options);
+  EXPECT_NE(std::string(refused.what()).find("--no-seam"), std::string::npos) << refused.what();
+}
+
 TEST(RepairCharts, ARefinedTorusHasRealSeams) {
-  const Atlas atlas = shapes::wrapped(shapes::torus(24, 12));
+  const Atlas atlas = closed_torus();
   const RefineResult result = refine(atlas, {.pe_bound = 0.6, .open_closed = true});
   EXPECT_FALSE(result.cut);
   EXPECT_FALSE(result.new_seams.empty());
@@ -187,7 +297,7 @@ TEST(RepairCharts, ARefinedTorusHasRealSeams) {
 }
 
 TEST(RepairCharts, AClosedChartIsLeftAndTheOthersRefined) {
-  const Atlas torus = shapes::wrapped(shapes::torus(24, 12));
+  const Atlas torus = closed_torus();
   const Atlas atlas = shapes::combine({torus, shapes::mesh(shapes::star(), 0.1)});
   const RefineResult result = refine(atlas, {.pe_bound = 0.7});
   EXPECT_TRUE(result.bound_met);
@@ -197,7 +307,7 @@ TEST(RepairCharts, AClosedChartIsLeftAndTheOthersRefined) {
 }
 
 TEST(RepairCharts, OpenedChartsAreCutIntoRectangles) {
-  for (const Atlas& atlas : {shapes::wrapped(shapes::torus(24, 12))}) {
+  for (const Atlas& atlas : {closed_torus()}) {
     const RefineOptions options{
         .pe_bound = 0.7, .seams = Seams::Rectangles, .rectangles = {.candidates = 50}, .open_closed = true};
     const RefineResult result = refine(atlas, options);

@@ -1,32 +1,35 @@
-// Shortest paths along edges of faces, and the cotree.
+// Shortest paths along edges of faces, the cotree, and seams to where the chart would be scaled most.
 #include "cut/open_closed.h"
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <queue>
 #include <set>
 
+#include "cut/scale_forecast.h"
 #include "geometry/half_edge_mesh.h"
 #include "support/disjoint_sets.h"
 
 namespace atlas_refine {
 namespace {
 
-constexpr int kMostTips = 6;         // of the tree that opens a chart
-constexpr double kNearEnough = 0.4;  // of the longest distance in the chart: no vertex is to be further from the cuts
-constexpr int kRoots = 8;            // tried for the loops around handles
+constexpr int kMostTips = 40;       // of the tree that opens a chart
+constexpr int kPatience = 4;        // seams added in vain before the search ends
+constexpr double kSeamWorth = 0.1;  // of the forecast, that a seam as long as the root of the area must save: of E_d a quarter
+constexpr int kRoots = 8;           // tried for the loops around handles
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// An edge between two faces, or at the boundary.
 struct Edge {
   std::array<int, 2> ends;
   std::array<int, 2> triangles{-1, -1};
-  double length = 0;
-  bool diagonal = false;  ///< both its triangles belong to one face
+  double length = 0;   ///< times the price of a seam there
+  bool whole = false;  ///< no cut may run along it: both its triangles belong to one face, or the artist said so
 
-  bool may_open() const { return triangles[1] >= 0 && !diagonal; }
+  bool may_open() const { return triangles[1] >= 0 && !whole; }
 };
 
 struct Graph {
@@ -34,7 +37,7 @@ struct Graph {
   std::vector<std::vector<int>> around;  ///< per vertex: edges that a cut may run along
 };
 
-Graph graph_of(const Chart& chart) {
+Graph graph_of(const Chart& chart, const SidePrices& prices) {
   std::map<std::pair<int, int>, int> known;
   Graph out;
   for (int t = 0; t < static_cast<int>(chart.triangles.size()); ++t) {
@@ -43,10 +46,11 @@ Graph graph_of(const Chart& chart) {
     for (int k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax(chart.triangles[t][k], chart.triangles[t][(k + 1) % 3]);
       const auto [entry, is_new] = known.try_emplace({low, high}, static_cast<int>(out.edges.size()));
-      if (is_new) out.edges.push_back({.ends = {low, high}, .length = lengths[k]});
+      const double price = prices.empty() ? 1 : prices[t][k];
+      if (is_new) out.edges.push_back({.ends = {low, high}, .length = price * lengths[k], .whole = price == kNoSeam});
       Edge& edge = out.edges[entry->second];
       edge.triangles[is_new ? 0 : 1] = t;
-      if (!is_new) edge.diagonal = chart.triangle_faces[t] == chart.triangle_faces[edge.triangles[0]];
+      if (!is_new) edge.whole = edge.whole || chart.triangle_faces[t] == chart.triangle_faces[edge.triangles[0]];
     }
   }
   out.around.resize(chart.vertex_count());
@@ -114,7 +118,7 @@ std::set<int> handle_loops(const Chart& chart, const Graph& graph, const std::ve
     const Edge& edge = graph.edges[e];
     if (edge.triangles[1] < 0) {
       faces.unite(edge.triangles[0], static_cast<int>(triangles) + hole_of_vertex[edge.ends[0]]);
-    } else if (edge.diagonal) {
+    } else if (edge.whole) {
       faces.unite(edge.triangles[0], edge.triangles[1]);
     } else if (tree.edge[edge.ends[0]] != e && tree.edge[edge.ends[1]] != e) {
       crossable.emplace_back(-(tree.distance[edge.ends[0]] + tree.distance[edge.ends[1]] + edge.length), e);
@@ -162,6 +166,88 @@ std::set<int> shortest_handle_loops(const Chart& chart, const Graph& graph, int 
   return best;
 }
 
+/// A vertex of the largest part that cuts can reach; -1 where they cannot run anywhere.
+int reachable_vertex(const Graph& graph) {
+  DisjointSets parts(graph.around.size());
+  for (const Edge& edge : graph.edges) {
+    if (edge.may_open()) parts.unite(edge.ends[0], edge.ends[1]);
+  }
+  std::vector<int> sizes(graph.around.size(), 0);
+  for (int v = 0; v < static_cast<int>(sizes.size()); ++v) ++sizes[parts.find(v)];
+  const auto largest = std::max_element(sizes.begin(), sizes.end());
+  return *largest > 1 ? static_cast<int>(largest - sizes.begin()) : -1;
+}
+
+/// Cuts that grow from a first vertex or loops, each time to the vertex that would be scaled most; in the end the first of them,
+/// as many as are worth their length.
+class GrowingCuts {
+ public:
+  GrowingCuts(const Chart& chart, const Graph& graph)
+      : graph_(graph), forecast_(chart), border_(chart.vertex_count(), 0), unit_(std::sqrt(chart.surface.area())) {
+    for (const std::vector<int>& loop : chart.boundary_loops) {
+      for (const int v : loop) border_[v] = 1;
+    }
+  }
+
+  /// Without cuts to start from it starts at what is scaled most if `end` is held, a corner of a box or the tip of a horn.
+  std::set<int> grown(std::set<int> cuts, int end) {
+    if (cuts.empty()) border_[opposite(end)] = 1;
+    for (const int v : ends_of(graph_, cuts)) border_[v] = 1;
+    std::set<int> best;
+    double least = kFar;
+    int in_vain = 0;
+    for (int tips = 0; tips < kMostTips && in_vain < kPatience; ++tips) {
+      const std::vector<double> scales = forecast_.logarithms(border_);
+      const double cost = forecast_.energy(scales) + kSeamWorth * length_of(graph_, cuts) / unit_;
+      ++in_vain;
+      // A single edge would leave a hole of two sides, which is none.
+      if (cuts.size() > 1 && (best.empty() || cost < least)) {
+        best = cuts;
+        least = cost;
+        in_vain = 0;
+      }
+      if (!grow_to_most_scaled(scales, cuts)) break;
+    }
+    return best;
+  }
+
+ private:
+  /// Of the vertices that seams from the border can reach; -1 where there is none.
+  int most_scaled(const std::vector<double>& scales, const Distances& from_border) const {
+    int tip = -1;
+    for (int v = 0; v < static_cast<int>(border_.size()); ++v) {
+      if (border_[v] || from_border.distance[v] == kFar) continue;
+      if (tip < 0 || std::abs(scales[v]) > std::abs(scales[tip])) tip = v;
+    }
+    return tip;
+  }
+
+  int opposite(int end) {
+    border_[end] = 1;
+    const int tip = most_scaled(forecast_.logarithms(border_), distances_from(graph_, {end}));
+    border_[end] = 0;
+    return tip < 0 ? end : tip;
+  }
+
+  bool grow_to_most_scaled(const std::vector<double>& scales, std::set<int>& cuts) {
+    std::vector<int> sources;
+    for (int v = 0; v < static_cast<int>(border_.size()); ++v) {
+      if (border_[v]) sources.push_back(v);
+    }
+    const Distances from_border = distances_from(graph_, sources);
+    const int tip = most_scaled(scales, from_border);
+    if (tip < 0) return false;
+    add_path(graph_, from_border, tip, cuts);
+    for (const int v : ends_of(graph_, cuts)) border_[v] = 1;
+    return true;
+  }
+
+  const Graph& graph_;
+  ScaleForecast forecast_;
+  std::vector<char> border_;  // per vertex
+  double unit_;               // of length
+};
+
 }  // namespace
 
 ChartShape shape_of(const Chart& chart) {
@@ -170,26 +256,24 @@ ChartShape shape_of(const Chart& chart) {
   return {loops, (2 - loops - topology.euler_characteristic) / 2};
 }
 
-std::vector<std::array<int, 2>> opening_edges(const Chart& chart) {
-  const Graph graph = graph_of(chart);
+bool fits_plane(const Chart& chart) {
+  std::size_t boundary = 0;
+  for (const std::vector<int>& loop : chart.boundary_loops) boundary += loop.size();
+  const int triangles = static_cast<int>(chart.triangles.size()), loops = static_cast<int>(chart.boundary_loops.size());
+  const int edges = (3 * triangles + static_cast<int>(boundary)) / 2;
+  return loops > 0 && chart.vertex_count() - edges + triangles == 2 - loops;
+}
+
+std::vector<std::array<int, 2>> opening_edges(const Chart& chart, const SidePrices& prices) {
+  const Graph graph = graph_of(chart, prices);
   const ChartShape shape = shape_of(chart);
-  const int one_end = distances_from(graph, {graph.edges.front().ends[0]}).farthest();
-  const Distances from_end = distances_from(graph, {one_end});
-  const int other_end = from_end.farthest();
+  const int start = reachable_vertex(graph);
+  if (shape.fits_plane() || start < 0) return {};
+  const int end = distances_from(graph, {start}).farthest();
   std::set<int> cuts;
-  if (shape.handles > 0)
-    cuts = shortest_handle_loops(chart, graph, one_end);
-  else if (shape.loops == 0)
-    add_path(graph, from_end, other_end, cuts);
-  for (int tips = 2; tips < kMostTips && !cuts.empty(); ++tips) {
-    std::vector<int> sources = ends_of(graph, cuts);
-    for (const auto& loop : chart.boundary_loops) sources.insert(sources.end(), loop.begin(), loop.end());
-    const Distances from_cuts = distances_from(graph, sources);
-    const int tip = from_cuts.farthest();
-    // A single edge would leave a hole of two sides, which is none.
-    if (cuts.size() > 1 && from_cuts.distance[tip] < kNearEnough * from_end.distance[other_end]) break;
-    add_path(graph, from_cuts, tip, cuts);
-  }
+  if (shape.handles > 0) cuts = shortest_handle_loops(chart, graph, end);
+  if (shape.handles > 0 && cuts.empty()) return {};
+  cuts = GrowingCuts(chart, graph).grown(std::move(cuts), end);
   std::vector<std::array<int, 2>> out;
   for (const int e : cuts) out.push_back(graph.edges[e].ends);
   return out;

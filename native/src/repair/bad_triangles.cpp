@@ -7,7 +7,6 @@
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
 #include "geometry/rest_triangle.h"
-#include "measure/distortion.h"
 
 namespace atlas_refine {
 
@@ -24,6 +23,18 @@ std::vector<char> bad_triangles(const Chart& chart) {
     bad.push_back(flat || orientation(a, b, c) <= 0);
   }
   return bad;
+}
+
+DirichletSums sums_of_good(const Chart& chart) {
+  const std::vector<char> bad = bad_triangles(chart);
+  std::vector<RestTriangle> shapes;
+  std::vector<Triangle> triangles;
+  for (std::size_t t = 0; t < bad.size(); ++t) {
+    if (bad[t]) continue;
+    shapes.push_back(chart.surface[t]);
+    triangles.push_back(chart.triangles[t]);
+  }
+  return dirichlet_sums(shapes, triangles, chart.uvs);
 }
 
 double distortion_to_good(const Chart& before, const Chart& after) {

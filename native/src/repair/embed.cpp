@@ -12,6 +12,7 @@
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "reduce/reduce.h"
+#include "repair/bad_triangles.h"
 #include "repair/untangle.h"
 #include "solve/symmetric_dirichlet.h"
 
@@ -25,14 +26,15 @@ constexpr double kCollapsed = 100;     // E_d above which an embedding is no use
 constexpr double kLeastWeight = 1e-3;  // of a triangle, as a fraction of the mean one
 
 /// The triangles on the surface's shapes, the outer boundary where it is, every other loop filled by a fan around a new vertex.
-/// With the outer boundary convex, all of them positive means an embedding.
+/// With the outer boundary convex, all of them positive means an embedding, with polygons convex where they have guards.
 Tangle filled_disk(const Chart& chart, std::size_t outer, std::vector<Vec2>& uvs) {
-  Tangle out{.triangles = chart.triangles, .inverse_edges = {}, .weights = {}, .fixed = {}};
+  Tangle out;
   const double least = kLeastWeight * chart.surface.area() / static_cast<double>(chart.triangles.size());
-  for (const RestTriangle& rest : chart.surface) {
+  for_each_element(chart, [&](const Triangle& triangle, const RestTriangle& rest, double share, int) {
+    out.triangles.push_back(triangle);
     out.inverse_edges.push_back(rest.inverse_edges);
-    out.weights.push_back(std::max(least, rest.area));
-  }
+    out.weights.push_back(std::max(least, share * rest.area));
+  });
   for (std::size_t l = 0; l < chart.boundary_loops.size(); ++l) {
     if (l == outer) continue;
     const std::vector<int>& loop = chart.boundary_loops[l];
@@ -78,43 +80,77 @@ Chart stretched(Chart chart) {
   return chart;
 }
 
+bool all_guards_hold(Chart chart) {
+  const std::size_t count = chart.guards.size();
+  drop_broken_guards(chart);
+  return chart.guards.size() == count;
+}
+
+/// The disk with its parts evened out; nothing where that made it invalid.
+std::optional<Chart> evened(const Chart& disk, bool valid, int threads, Monitor& monitor) {
+  std::vector<Vec2> filled = disk.uvs;
+  Tangle tangle = filled_disk(disk, longest_loop(disk), filled);
+  tangle.stays_positive = valid && all_guards_hold(disk);
+  auto uvs = untangle(tangle, std::move(filled), threads, monitor);
+  if (!uvs) return std::nullopt;
+  uvs->resize(disk.vertex_count());
+  Chart even = disk;
+  even.uvs = std::move(*uvs);
+  if (!certify_charts({even}).valid()) return std::nullopt;
+  return even;
+}
+
+Chart without_guards(Chart chart) {
+  chart.guards.clear();
+  return chart;
+}
+
+/// Tutte's embedding of the polygons, all convex; where that has flat triangles, as it has around vertices of two polygons only,
+/// that of their triangles.
+Chart tutte_start(const Chart& chart) {
+  Chart disk = chart;
+  disk.uvs = tutte_disk(chart);
+  if (chart.guards.empty() || certify_charts({disk}).valid()) return disk;
+  disk.uvs = tutte_disk(without_guards(chart));
+  return disk;
+}
+
 /// A valid start. Tutte's embedding is one but for rounding, yet parts that it shrinks too much would hold the way down up: those
 /// are evened out first.
 std::optional<Chart> on_disk(const Chart& chart, int threads, Monitor& monitor) {
-  Chart disk = chart;
-  disk.uvs = tutte_disk(chart);
+  const Chart disk = tutte_start(chart);
   const bool valid = certify_charts({disk}).valid();
-  if (valid && dirichlet_sums(stretched(disk)).best_energy() < kGentle) return disk;
-  std::vector<Vec2> filled = disk.uvs;
-  Tangle tangle = filled_disk(chart, longest_loop(chart), filled);
-  tangle.stays_positive = valid;
-  if (auto evened = untangle(tangle, std::move(filled), threads, monitor)) {
-    evened->resize(chart.vertex_count());
-    Chart even = chart;
-    even.uvs = std::move(*evened);
-    if (certify_charts({even}).valid()) return even;
+  if (valid && dirichlet_sums(without_guards(stretched(disk))).best_energy() < kGentle) return disk;
+  if (const auto even = evened(disk, valid, threads, monitor)) return even;
+  if (!disk.guards.empty()) {
+    if (const auto even = evened(without_guards(disk), valid, threads, monitor)) return even;
   }
   if (!valid) return std::nullopt;
   return disk;
 }
 
+/// The shapes that the chart has in its UVs, at the surface's scale.
+Objective shapes_of_uvs(const Chart& chart, const std::vector<Chart>& pieces) {
+  return make_objective(pieces, {.reference_uvs = {chart.uvs}, .reference_scale = {sums_of_good(chart).best_scale()}});
+}
+
 }  // namespace
 
-std::optional<Chart> embed(const Chart& guarded, int threads, Monitor& monitor) {
-  Chart chart = guarded;
-  chart.guards.clear();
+std::optional<Chart> embed(const Chart& chart, Shapes shapes, int threads, Monitor& monitor) {
   std::optional<Chart> start = on_disk(chart, threads, monitor);
   if (!start) return std::nullopt;
+  drop_broken_guards(*start);
   if (Chart better = stretched(*start); certify_charts({better}).valid()) start = std::move(better);
   const std::vector<Chart> charts = {*start};
-  const ReduceProblem problem{.charts = charts, .gap = {.value = kGapForLargerBox * Gap{}.value}, .threads = threads};
+  ReduceProblem problem{.charts = charts, .gap = {.value = kGapForLargerBox * Gap{}.value}, .threads = threads};
+  if (shapes == Shapes::OfUvs) problem.objective = shapes_of_uvs(chart, charts);
   ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
-    // E_d falls from far above to near 1: its logarithm tells how far the way is.
+    // The energy falls from far above to near 1: its logarithm tells how far the way is.
     monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
   });
   if (!(result.energy <= kCollapsed)) return std::nullopt;
   // Polygons that are convex in the end are guarded from here on.
-  Chart embedded = guarded;
+  Chart embedded = chart;
   embedded.uvs = std::move(result.uvs[0]);
   drop_broken_guards(embedded);
   return embedded;

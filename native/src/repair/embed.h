@@ -1,4 +1,4 @@
-// A chart that overlaps itself embedded anew: Tutte, then least distortion under the barrier.
+// A chart that overlaps itself embedded anew: Tutte, then least distortion under the barrier, from the surface or from the input.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,13 @@
 
 namespace atlas_refine {
 
-/// The chart without overlap, at its own optimum of E_d (eq. 9) with all borders at least the default gap apart; its UVs are
-/// not read. It must be a disk or a disk with holes. Nothing where no embedding of acceptable distortion was found.
-std::optional<Chart> embed(const Chart& chart, int threads, Monitor& monitor);
+/// What triangles are to look like: as on the surface, or as in the chart's UVs, where those that are not positive are to look as
+/// on the surface too.
+enum class Shapes { OfSurface, OfUvs };
+
+/// The chart without overlap, at its own optimum of the distortion from these shapes (eq. 9) with all borders at least the
+/// default gap apart; polygons that have guards stay convex where that was found. It must be a disk or a disk with holes. Nothing
+/// where no embedding of acceptable distortion was found.
+std::optional<Chart> embed(const Chart& chart, Shapes shapes, int threads, Monitor& monitor);
 
 }  // namespace atlas_refine

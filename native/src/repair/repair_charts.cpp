@@ -19,7 +19,8 @@ namespace {
 
 using What = ChartRepair::What;
 
-constexpr double kShapeLost = 1.5;  // E_2 above which an embedding anew may serve better
+// E_2 above which an embedding anew may serve better, and E_d above which UVs have no shape worth keeping.
+constexpr double kShapeLost = 1.5;
 
 /// One chart after its repair, or why it has none.
 struct Mended {
@@ -42,19 +43,26 @@ int face_of_repeated_vertex(const Chart& chart) {
 
 bool any(const std::vector<char>& flags) { return std::find(flags.begin(), flags.end(), 1) != flags.end(); }
 
-CutAtlas opened(const Chart& chart) {
+/// Nothing where that did not make it one piece that fits the plane.
+std::optional<CutAtlas> opened(const Chart& chart, const SidePrices& prices) {
   std::vector<SurfacePath> paths;
-  for (const auto& [from, to] : opening_edges(chart)) paths.push_back({0, {from, to}});
-  return cut_along(whole_atlas({chart}), {chart}, paths);
+  for (const auto& [from, to] : opening_edges(chart, prices)) paths.push_back({0, {from, to}});
+  CutAtlas atlas = cut_along(whole_atlas({chart}), {chart}, paths);
+  if (atlas.pieces.size() != 1 || !shape_of(atlas.pieces[0].mesh).fits_plane()) return std::nullopt;
+  return atlas;
 }
 
-Mended opened_and_embedded(const Chart& chart, const ChartShape& shape, const RepairOptions& options, Monitor& monitor) {
+Mended opened_and_embedded(const Chart& chart, const ChartShape& shape, const SidePrices& prices, const RepairOptions& options,
+                           Monitor& monitor) {
   const std::string what = shape.loops == 0 ? "has no boundary" : "has a handle";
   if (!options.open_closed) return unmended(what + ": it cannot be flat without a seam; --open-closed allows one");
-  CutAtlas atlas = opened(chart);
-  if (atlas.pieces.size() != 1 || !shape_of(atlas.pieces[0].mesh).fits_plane())
-    return unmended(what + " and could not be opened");
-  const auto embedded = embed(atlas.pieces[0].mesh, options.threads, monitor);
+  std::optional<CutAtlas> cut = opened(chart, prices);
+  if (!cut) {
+    const bool forbidden = !prices.empty() && opened(chart, {});
+    return unmended(what + " and could not be opened" + (forbidden ? ": edges of --no-seam are in the way" : ""));
+  }
+  CutAtlas atlas = std::move(*cut);
+  const auto embedded = embed(atlas.pieces[0].mesh, Shapes::OfSurface, options.threads, monitor);
   if (!embedded) return unmended(what + " and, opened, no embedding of acceptable distortion was found");
   atlas.pieces[0].mesh = *embedded;
   return {.atlas = std::move(atlas), .what = What::Opened, .reason = ""};
@@ -69,7 +77,16 @@ bool mostly_bad(const Chart& chart, const std::vector<char>& bad) {
 
 double energy(const Chart& chart) { return dirichlet_sums(chart).best_energy(); }
 
-/// In place where that keeps the good triangles' shapes; else in place or anew, whichever is less distorted.
+/// The chart without overlap and its shape kept; nothing where there was none worth it, or it was lost all the same.
+std::optional<Chart> drawn_apart(const Chart& chart, const std::vector<char>& bad, const RepairOptions& options,
+                                 Monitor& monitor) {
+  if (mostly_bad(chart, bad) || !(sums_of_good(chart).best_energy() < kShapeLost)) return std::nullopt;
+  const auto apart = embed(chart, Shapes::OfUvs, options.threads, monitor);
+  if (!apart || !(distortion_to_good(chart, *apart) < kShapeLost)) return std::nullopt;
+  return apart;
+}
+
+/// In place or at least with the good triangles' shapes; else in place or anew, whichever is less distorted.
 Mended mend_disk(const Chart& chart, const std::vector<char>& bad, const RepairOptions& options, Monitor& monitor) {
   std::optional<Chart> in_place;
   if (!any(bad)) {
@@ -78,31 +95,35 @@ Mended mend_disk(const Chart& chart, const std::vector<char>& bad, const RepairO
     in_place = untangle_chart(chart, options.may_overlap, options.threads, monitor);
     if (in_place && distortion_to_good(chart, *in_place) < kShapeLost) return mended(*in_place, What::Untangled);
   }
-  const auto embedded = embed(chart, options.threads, monitor);
+  if (const auto apart = drawn_apart(chart, bad, options, monitor)) return mended(*apart, What::DrawnApart);
+  const auto embedded = embed(chart, Shapes::OfSurface, options.threads, monitor);
   if (in_place && (!embedded || energy(*in_place) < energy(*embedded))) return mended(*in_place, What::Untangled);
   if (embedded) return mended(*embedded, What::Embedded);
   return unmended("overlaps itself and no embedding of acceptable distortion was found");
 }
 
-Mended mend(const Chart& chart, const std::vector<char>& bad, const RepairOptions& options, Monitor& monitor) {
+Mended mend(const Chart& chart, int index, const std::vector<char>& bad, const RepairOptions& options, Monitor& monitor) {
   const int repeated = face_of_repeated_vertex(chart);
   if (repeated >= 0) return unmended("has a face with two corners at one vertex: face " + std::to_string(repeated));
   const ChartShape shape = shape_of(chart);
-  if (!shape.fits_plane()) return opened_and_embedded(chart, shape, options, monitor);
+  if (!shape.fits_plane()) {
+    const SidePrices prices = options.prices.empty() ? SidePrices() : options.prices[index];
+    return opened_and_embedded(chart, shape, prices, options, monitor);
+  }
   return mend_disk(chart, bad, options, monitor);
 }
 
 /// Flipped triangles, overlaps, or borders that are apart by rounding only and can be parted; nothing where the chart is fine.
 std::optional<Mended> mended_where_needed(const Chart& chart, int index, const std::vector<char>& bad,
                                           const RepairOptions& options, Monitor& monitor) {
-  if (any(bad)) return mend(chart, bad, options, monitor);
+  if (any(bad)) return mend(chart, index, bad, options, monitor);
   if (options.may_overlap) {
     if (!options.open_closed || shape_of(chart).fits_plane()) return std::nullopt;
-    return mend(chart, bad, options, monitor);
+    return mend(chart, index, bad, options, monitor);
   }
   if (!certify_charts({chart}).valid()) {
     const bool pinched = options.space_points && certify_charts({chart}, {(*options.space_points)[index]}).valid();
-    return pinched ? std::nullopt : std::optional(mend(chart, bad, options, monitor));
+    return pinched ? std::nullopt : std::optional(mend(chart, index, bad, options, monitor));
   }
   if (!touches_itself(chart)) return std::nullopt;
   const auto parted = part_touching(chart);
@@ -171,6 +192,8 @@ std::string in_words(const ChartRepair& repair) {
       return "touched itself, touching borders drawn apart";
     case What::Untangled:
       return had + "mended in place";
+    case What::DrawnApart:
+      return had + "drawn apart, its shape kept";
     case What::Embedded:
       return had + "embedded anew";
     case What::Opened:

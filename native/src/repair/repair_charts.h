@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cut/cut_atlas.h"
+#include "cut/side_prices.h"
 #include "geometry/freedom.h"
 #include "support/monitor.h"
 
@@ -17,16 +18,18 @@ struct RepairOptions {
   Freedoms freedom = {};     ///< per chart: fixed ones are left alone, those that only move are not mended
   bool may_overlap = false;  ///< positive triangles are enough, and disks with holes: the charts are going to be deformed
   bool open_closed = false;  ///< charts without a boundary, or with a handle, may be opened along edges of their faces
+  std::vector<SidePrices> prices = {};  ///< per chart what seams cost there; empty: the same everywhere
   int threads = 1;
 };
 
 /// What was done to one chart.
 struct ChartRepair {
   enum class What {
-    Parted,     ///< touched itself: touching vertices were drawn apart
-    Untangled,  ///< flipped or zero-area faces were turned in place
-    Embedded,   ///< overlapped itself: embedded anew
-    Opened,     ///< had no boundary, or a handle: opened along edges and embedded
+    Parted,      ///< touched itself: touching vertices were drawn apart
+    Untangled,   ///< flipped or zero-area faces were turned in place
+    DrawnApart,  ///< overlapped itself: embedded with the shapes of its UVs
+    Embedded,    ///< overlapped itself: embedded anew
+    Opened,      ///< had no boundary, or a handle: opened along edges and embedded
   };
   int chart;
   What what;

@@ -1,17 +1,33 @@
 // Repairs in words.
 #include "report/note_repairs.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "cut/open_closed.h"
+#include "input/price_sides.h"
 #include "measure/distortion.h"
 #include "report/locked.h"
 
 namespace atlas_refine {
+namespace {
+
+/// What seams cost where charts are opened, which is along edges whatever Cut says; nothing where all charts fit the plane.
+std::vector<SidePrices> opening_prices(const Refinement& run) {
+  const std::vector<Chart>& charts = run.input.set.charts;
+  if (!run.options.open_closed || std::all_of(charts.begin(), charts.end(), fits_plane)) return {};
+  RefineOptions along_edges = run.options;
+  along_edges.cut = Cut::Edges;
+  return price_sides(run.input.atlas, run.input.set, along_edges);
+}
+
+}  // namespace
 
 RepairOptions repair_options(const Refinement& run) {
   return {.space_points = &run.input.set.points,
           .freedom = freedom_of(run.input.set, run.options),
           .open_closed = run.options.open_closed,
+          .prices = opening_prices(run),
           .threads = run.threads};
 }
 
