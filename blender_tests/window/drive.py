@@ -98,6 +98,13 @@ def running():
     return tasks().running is not None
 
 
+def enter_edit_mode():
+    """With everything selected."""
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+
+
 def start(obj, pe_bound=0.8):
     bpy.context.view_layer.objects.active = obj
     bpy.context.scene.atlas_refine.pe_bound = pe_bound
@@ -152,7 +159,7 @@ def test_the_window_lives_while_it_runs_and_esc_stops_it():
     fractions = []
     for _ in range(10):  # the window's own timers run, and so does the engine
         assert running(), "over too soon to be stopped"
-        fractions.append(tasks().running.job.progress.fraction)
+        fractions.append(tasks().running.progress[1])
         yield STEP_SECONDS
     assert fractions == sorted(fractions)
     picture("running")
@@ -183,7 +190,7 @@ def test_a_mesh_that_changed_meanwhile_is_left_alone():
 def test_edit_mode_from_the_button():
     obj = add_mesh(name="Edited")
     bpy.context.view_layer.objects.active = obj
-    bpy.ops.object.mode_set(mode="EDIT")
+    enter_edit_mode()
     tasks().last = None
     yield from start(obj)
     yield lambda: tasks().last is not None and not running()
@@ -207,12 +214,12 @@ def test_rectangles_by_clicks():
     yield 0.5
     picture("rectangles")
     tasks().last = None
-    yield from click((BUTTON[0], BUTTON[1] + 2 * ROW))  # cut and sigma are shown above it now
+    yield from click(BUTTON)
     yield lambda: tasks().last is not None and not running()
     yield 0.3
     picture("cut")
     obj = bpy.data.objects["Cut"]
-    result = tasks().last[2]
+    result = tasks().last[0].result
     assert result.intervention == "cut", result.intervention
     assert len(obj.data.polygons) == len(result.cut.face_sources) > faces
     assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
@@ -226,7 +233,7 @@ def test_rectangles_in_edit_mode_with_custom_normals_and_one_undo():
     if hasattr(obj.data, "use_auto_smooth"):  # before 4.1
         obj.data.use_auto_smooth = True
     obj.data.normals_split_custom_set([(0.6, 0.0, 0.8)] * len(obj.data.loops))
-    bpy.ops.object.mode_set(mode="EDIT")
+    enter_edit_mode()
     bpy.ops.ed.undo_push(message="Made a mesh")
     bpy.context.scene.atlas_refine.seams = "RECTANGLES"
     bpy.context.scene.atlas_refine.cut = "SPLIT"
@@ -234,7 +241,7 @@ def test_rectangles_in_edit_mode_with_custom_normals_and_one_undo():
     uv_editor().tag_redraw()
     yield 0.3
     faces = len(obj.data.polygons)
-    yield from click((BUTTON[0], BUTTON[1] + 2 * ROW))
+    yield from click(BUTTON)
     yield lambda: tasks().last is not None and not running()
     yield 0.3
     obj = bpy.data.objects["Normals"]
