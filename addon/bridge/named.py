@@ -55,7 +55,8 @@ def _attribute(obj, name, domain):
         mesh = bmesh.from_edit_mesh(obj.data)
         elements = mesh.faces if domain == "FACE" else mesh.edges
         for kind in ("bool", "int", "float"):
-            layer = getattr(elements.layers, kind, {}) and getattr(elements.layers, kind).get(name)
+            layers = getattr(elements.layers, kind, None)
+            layer = None if layers is None else layers.get(name)
             if layer is not None:
                 return np.array([float(element[layer]) for element in elements])
         return _hidden_in_edit_mode(obj, name, domain)
