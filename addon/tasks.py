@@ -158,8 +158,9 @@ class Run:
         return progress, (at + progress.fraction) / len(self.atlases)
 
     def cancel(self):
-        self.cancelled = True
+        """Unless all are done."""
         if self._at < len(self.atlases):
+            self.cancelled = True
             self.atlases[self._at].job.cancel()
 
     def stop(self):

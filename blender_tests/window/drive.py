@@ -25,8 +25,8 @@ STEP_SECONDS = 0.05
 WAIT_LIMIT_SECONDS = 240  # only what hangs takes as long
 #: Where things are in the sidebar of Blender 3.4.1's UV editor, in pixels from its right and top edge.
 TAB = (10, 130)
-SEAMS = (84, 70)
-BUTTON = (130, 259)
+SEAMS = (84, 156)
+BUTTON = (122, 80)
 ROW = 23
 
 
