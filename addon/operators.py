@@ -118,7 +118,7 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         for name, text in run.problems:
             report_problem(self, name, text)
         for done in all_done:
-            self.report({"INFO"}, f"{done.title}: {headline(done.result, done.is_free)}")
+            self.report({"INFO"}, f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}")
         return {"FINISHED"} if all_done else {"CANCELLED"}
 
     def _show_progress(self, context):
@@ -154,7 +154,7 @@ class UV_OT_atlas_refine_measure(bpy.types.Operator):
         for name, text in trouble:
             report_problem(self, name, text)
         for done in found:
-            self.report({"INFO"}, f"{done.title}: {measured(done.measures, done.is_free)}")
+            self.report({"INFO"}, f"{done.title}: {measured(done.measures, done.is_free, done.reached_beyond)}")
         drawing.redraw_panels(context)
         return {"FINISHED"} if found else {"CANCELLED"}
 

@@ -5,7 +5,7 @@ import bpy
 
 from . import drawing, operators, tasks
 from .bridge import versions
-from .core.summary import changes, distortion, figures, measured, new_seams, notes, percent, what_was_done
+from .core.summary import distortion, faces_after, figures, measured, new_seams, notes, percent, use, what_was_done
 from .core.words import counted, phase
 from .properties import copy_options
 
@@ -72,21 +72,20 @@ class _Result:
             box = self.layout.box().column(align=True)
             if done.result is None:
                 box.label(text=f"{done.title}: measured", icon="INFO")
-                box.label(text=measured(done.measures, done.is_free))
+                box.label(text=measured(done.measures, done.is_free, done.reached_beyond))
             else:
                 self._draw_result(box, done)
 
     def _draw_result(self, layout, done):
         before, after = done.result.before, done.result.after
-        what = "Box use" if done.is_free else "Texture use"
         layout.label(text=f"{done.title}: {what_was_done(done.result)}", icon="CHECKMARK" if done.result.bound_met else "ERROR")
-        use = f"{percent(before.pe_fixed_aspect)} -> {percent(after.pe_fixed_aspect, down=True)}"
-        layout.label(text=f"{what} {use}")
+        now = percent(after.pe_fixed_aspect, down=True)
+        layout.label(text=f"{use(before, done.is_free, done.reached_beyond)} -> {now}")
         layout.label(text=distortion(after).capitalize())
         layout.label(text=new_seams(done.result).capitalize())
         if done.result.cut is not None:
-            faces, now = changes(done.result, done.face_count)[-1][1:]
-            layout.label(text=f"Faces {faces} -> {now}, charts {before.chart_count} -> {after.chart_count}")
+            faces = faces_after(done.result, done.face_count)
+            layout.label(text=f"Faces {done.face_count} -> {faces}, charts {before.chart_count} -> {after.chart_count}")
         told = [*done.notes, *notes(done.result)]
         for note in told[:MOST_NOTES]:
             layout.label(text=note, icon="DOT")
@@ -164,7 +163,7 @@ def _draw_menu(self, context):
 
 
 #: The last one so that F3 finds the operators in the 3D view's object mode, which has no UV menu.
-MENUS = ("IMAGE_MT_uvs", "VIEW3D_MT_uv_map", "VIEW3D_MT_object_convert")
+MENUS = ("IMAGE_MT_uvs", "VIEW3D_MT_uv_map", "VIEW3D_MT_object")
 
 
 def register():

@@ -34,6 +34,7 @@ class Done:
     title: str
     face_count: int
     is_free: bool
+    reached_beyond: bool  # charts lay beside the texture
     result: object = None
     measures: object = None
     notes: tuple = ()
@@ -110,16 +111,20 @@ class Atlas:
 
     def _done(self, result, maps):
         prints = tuple((part.name, uv_map, _print(part.name, uv_map)) for part, uv_map in zip(self.parts, maps, strict=True))
-        is_free = not self.request.arguments["in_texture"]
-        return Done(self.title, self.request.face_count, is_free, result=result, notes=tuple(self.notes), prints=prints)
+        return self._shown(prints, result=result)
 
     def measure(self):
         """What the panel shows of the meshes as they are."""
         joined, options = self.request.joined, self.options
         measures = engine.measure(*joined.arrays(), **options.box_arguments(self.texture))
         prints = tuple((part.name, part.uv_map, _print(part.name, part.uv_map)) for part in self.parts)
-        is_free = options.aspect == "FREE"
-        return Done(self.title, self.request.face_count, is_free, measures=measures, notes=tuple(self.notes), prints=prints)
+        return self._shown(prints, measures=measures)
+
+    def _shown(self, prints, **found):
+        request = self.request
+        is_free = not request.arguments["in_texture"]
+        beyond = request.reaches_beyond and not is_free
+        return Done(self.title, request.face_count, is_free, beyond, notes=tuple(self.notes), prints=prints, **found)
 
 
 class Run:

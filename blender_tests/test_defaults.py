@@ -64,9 +64,13 @@ class Defaults(unittest.TestCase):
         self.assertEqual(get_uvs(obj.data.uv_layers.active).tobytes(), before)
 
     def test_the_report_is_in_words(self):
-        add_mesh()
+        obj = add_mesh()
         told = messages(bpy.ops.uv.atlas_refine)
-        self.assertIn("Info: Loose: Texture use 0 % -> 80 %, distortion low (worst stretch 1.", told)
+        self.assertIn("Info: Loose: Texture use 95 % (reaching beyond it) -> 80 %, distortion moderate (worst stretch 1.", told)
+        layer = obj.data.uv_layers.active
+        set_uvs(layer, 0.5 * get_uvs(layer))
+        told = messages(bpy.ops.uv.atlas_refine)
+        self.assertIn("Info: Loose: Texture use 20 % -> 80 %, distortion", told)
         self.assertIn("no new seams", told)
         for symbol in ("PE", "E_d", "BL"):
             self.assertNotIn(symbol, told)

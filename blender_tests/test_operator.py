@@ -139,6 +139,8 @@ class Operator(unittest.TestCase):
 
     def test_a_bound_out_of_reach(self):
         options = {"pe_bound": 0.999, "gap": "PIXELS", "gap_px": 50, "texture_size": 1024}
+        self.assert_refused(add_mesh(), ["the gap to the border of the texture leaves 0.81"], **options)
+        options["aspect"] = "FREE"
         self.assert_refused(add_mesh(), ["the best found is texture use"], **options)
         obj = add_mesh()
         before = packing_efficiency(obj.data, obj.data.uv_layers.active)

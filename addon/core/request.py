@@ -23,6 +23,12 @@ class Request:
         return int(self.joined.first_faces[-1])
 
     @property
+    def reaches_beyond(self):
+        """Some chart lies beside the one texture that all share."""
+        uvs = self.joined.arrays()[3]
+        return "groups" not in self.arguments and not np.all((uvs >= 0) & (uvs <= 1) | np.isnan(uvs))
+
+    @property
     def leaves_faces_out(self):
         return not all(part.taken.all() for part in self.joined.parts)
 

@@ -7,19 +7,21 @@ from .words import counted, plain
 LOW, MODERATE = 1.05, 1.25
 
 
-def headline(result, is_free=False):
-    """ "Texture use 48 % -> 80 %, distortion low (worst stretch 1.3), no new seams"."""
-    before, after = result.before, result.after
-    what = "Box use" if is_free else "Texture use"
-    return (
-        f"{what} {percent(before.pe_fixed_aspect)} -> {percent(after.pe_fixed_aspect, down=True)}, "
-        f"{distortion(after)}, {new_seams(result)}"
-    )
+def headline(result, is_free=False, reached_beyond=False):
+    """One line: texture use, distortion and seams, as "Texture use 48 % -> 80 %, distortion low (worst stretch 1.3), no new seams"."""
+    after = result.after
+    now = percent(after.pe_fixed_aspect, down=True)
+    return f"{use(result.before, is_free, reached_beyond)} -> {now}, {distortion(after)}, {new_seams(result)}"
 
 
-def measured(measures, is_free=False):
+def measured(measures, is_free=False, reaches_beyond=False):
+    return f"{use(measures, is_free, reaches_beyond)}, {distortion(measures)}, {counted(measures.chart_count, 'chart')}"
+
+
+def use(measures, is_free, reaches_beyond):
+    """What of the texture is covered says little where charts lie beside it."""
     what = "Box use" if is_free else "Texture use"
-    return f"{what} {percent(measures.pe_fixed_aspect)}, {distortion(measures)}, {counted(measures.chart_count, 'chart')}"
+    return f"{what} {percent(measures.pe_fixed_aspect)}{' (reaching beyond it)' if reaches_beyond else ''}"
 
 
 def distortion(measures):
@@ -46,19 +48,6 @@ def what_was_done(result):
         "squeezed": "Charts moved and bent",
         "cut": "Charts cut, moved and bent",
     }[result.intervention] + ("" if result.bound_met else "; the wanted use was not reached")
-
-
-def changes(result, face_count):
-    """(name, before, after) rows in plain words."""
-    before, after = result.before, result.after
-    rows = [
-        ("Texture use", percent(before.pe_fixed_aspect), percent(after.pe_fixed_aspect, down=True)),
-        ("Worst stretch", f"{before.stretch_max:.2f}", f"{after.stretch_max:.2f}"),
-        ("Charts", str(before.chart_count), str(after.chart_count)),
-    ]
-    if result.cut is not None:
-        rows.append(("Faces", str(face_count), str(len(result.cut.face_sources))))
-    return rows
 
 
 def figures(result, face_count):

@@ -27,6 +27,7 @@ WAIT_LIMIT_SECONDS = 240  # only what hangs takes as long
 TAB = (10, 130)
 SEAMS = (84, 156)
 BUTTON = (122, 80)
+TAB_3D = 180  # the same tab in the 3D view, from the top edge
 ROW = 23
 
 
@@ -255,6 +256,53 @@ def test_rectangles_in_edit_mode_with_custom_normals_and_one_undo():
     yield from until(lambda: faces_in_edit_mode("Normals") == faces, "one undo does not take it back")
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.scene.atlas_refine.seams = "NONE"
+
+
+def test_f3_finds_it():
+    obj = add_mesh(name="Searched")
+    bpy.context.view_layer.objects.active = obj
+    enter_edit_mode()
+    tasks().last = None
+    x, y = uv_editor().x + 300, uv_editor().y + 300
+    window().event_simulate("MOUSEMOVE", "NOTHING", x=x, y=y)
+    yield 0.3
+    yield from key("F3", over=(x, y))
+    yield 1.0
+    for letter in "refine atlas":
+        window().event_simulate(letter.upper().replace(" ", "SPACE"), "PRESS", x=x, y=y, unicode=letter)
+        yield 0.05
+        window().event_simulate(letter.upper().replace(" ", "SPACE"), "RELEASE", x=x, y=y)
+        yield 0.05
+    yield 0.5
+    picture("f3")
+    yield from key("RET", over=(x, y))
+    yield lambda: tasks().last is not None and not running()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
+
+
+def test_the_3d_view_has_the_panel():
+    drawn = []
+    panel = bpy.types.VIEW3D_PT_atlas_refine
+    original = panel.draw
+    panel.draw = lambda self, context: drawn.append(True) or original(self, context)
+    area = uv_editor()
+    area.ui_type = "VIEW_3D"
+    area.spaces.active.show_region_ui = True
+    yield 1.0
+    region = next(region for region in area.regions if region.type == "UI")
+    at = (region.x + region.width - TAB[0], region.y + region.height - TAB_3D)
+    window().event_simulate("MOUSEMOVE", "NOTHING", x=at[0], y=at[1])
+    yield 0.2
+    window().event_simulate("LEFTMOUSE", "PRESS", x=at[0], y=at[1])
+    yield 0.1
+    window().event_simulate("LEFTMOUSE", "RELEASE", x=at[0], y=at[1])
+    yield from until(lambda: drawn, "the panel is not drawn")
+    yield 0.3
+    picture("3d-view")
+    panel.draw = original
+    area.ui_type = "UV"
+    yield 0.5
 
 
 def test_another_file_ends_a_run():

@@ -165,9 +165,11 @@ void warn_of_density(const InputAtlas& input, const RefineOptions& options, cons
                      Journal& journal) {
   constexpr double kNotable = 0.1;
   if (options.density != Density::Keep) return;
+  const Freedoms freedom = freedom_of(input.set, options);
   std::vector<int> changed;
   double most = 0;
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+    if (is_fixed(freedom, c)) continue;
     const double change = std::abs(charts[c].density_after / charts[c].density_before - 1);
     if (change > kNotable) changed.push_back(input.set.charts[c].number);
     most = std::max(most, change);

@@ -21,9 +21,7 @@ FREE = Options(aspect="FREE", gap="AUTO")
 
 def make_part(arrays=None, name="Part", **flags):
     positions, offsets, corners, uvs = shapes.loose() if arrays is None else arrays
-    atlas = AtlasArrays(
-        positions.astype(np.float32), offsets.astype(np.int32), corners.astype(np.int32), uvs.astype(np.float32)
-    )
+    atlas = AtlasArrays(positions.astype(np.float32), offsets.astype(np.int32), corners.astype(np.int32), uvs.astype(np.float32))
     faces = len(offsets) - 1
     given = {
         "triangles": np.zeros((0, 3), dtype=np.int32),
@@ -155,7 +153,9 @@ def test_a_cut_of_several_meshes_is_dealt_out_to_each():
     request = prepare(atlas_refine, parts, options)
     result = run(request)
     assert result.cut is not None
-    plans = [plan_cut(part.atlas, *request.joined.cut_of(k, result.cut, stored_uvs(result.corner_uvs))) for k, part in enumerate(parts)]
+    plans = [
+        plan_cut(part.atlas, *request.joined.cut_of(k, result.cut, stored_uvs(result.corner_uvs))) for k, part in enumerate(parts)
+    ]
     assert sum(len(plan.face_sources) for plan in plans) == len(result.cut.face_sources)
     assert all(len(plan.new_seams) for plan in plans)
 
@@ -165,7 +165,7 @@ def test_protected_faces_and_edges_go_to_the_engine():
     parts[1].keep_shape = faces(parts[1], *THIRD)
     parts[0].importance = np.full(102, 3.0)
     parts[1].no_seam = np.array([[0, 1]])
-    request = prepare(atlas_refine, parts, FREE)
+    request = prepare(atlas_refine, parts, Options(aspect="FREE", gap="AUTO", stacks="SEPARATE"))
     assert np.array_equal(np.flatnonzero(request.arguments["keep_shape"]), 102 + np.arange(*THIRD))
     assert np.array_equal(np.unique(request.arguments["importance"]), [1.0, 3.0])
     first = len(parts[0].atlas.positions)
