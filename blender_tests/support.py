@@ -147,7 +147,7 @@ def texture_share(obj):
     """Of the texture's square, from the stored values, where all of them lie in it."""
     layer = obj.data.uv_layers.active
     uvs = get_uvs(layer).astype(np.float64)
-    assert uvs.min() >= 0 and uvs.max() <= 1, (uvs.min(), uvs.max())
+    assert np.all((uvs >= 0) & (uvs <= 1)), (uvs.min(), uvs.max())
     return packing_efficiency(obj.data, layer) * np.prod(uvs.max(axis=0) - uvs.min(axis=0))
 
 

@@ -19,9 +19,10 @@ def measured(measures, is_free=False, reaches_beyond=False):
 
 
 def use(measures, is_free, reaches_beyond):
-    """What of the texture is covered says little where charts lie beside it."""
+    """What of the texture is covered says little where charts lie beside it, or on each other."""
     what = "Box use" if is_free else "Texture use"
-    return f"{what} {percent(measures.pe_fixed_aspect)}{' (reaching beyond it)' if reaches_beyond else ''}"
+    covered = "over 100 % (charts overlap)" if measures.pe_fixed_aspect > 1 else percent(measures.pe_fixed_aspect)
+    return f"{what} {covered}{' (reaching beyond it)' if reaches_beyond else ''}"
 
 
 def distortion(measures):

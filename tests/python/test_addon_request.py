@@ -79,17 +79,15 @@ def test_one_pinned_one_hidden_and_one_unselected_face_lock_the_whole_chart():
 
 
 def test_nothing_to_do_says_why():
-    part = make_part()
-    with pytest.raises(NothingToDoError, match="no chart is selected"):
-        part.selected[:] = False
-        prepare(atlas_refine, [part], FREE)
-    with pytest.raises(NothingToDoError, match="hidden"):
-        part.hidden[:] = True
-        prepare(atlas_refine, [part], FREE)
-    part = make_part()
-    part.pinned[:] = True
-    with pytest.raises(NothingToDoError, match="pinned"):
-        prepare(atlas_refine, [part], FREE)
+    for flag, value, words in (
+        ("selected", False, "no chart is selected"),
+        ("hidden", True, "hidden"),
+        ("pinned", True, "pinned"),
+    ):
+        part = make_part()
+        getattr(part, flag)[:] = value
+        with pytest.raises(NothingToDoError, match=words):
+            prepare(atlas_refine, [part], FREE)
 
 
 def test_two_meshes_at_one_place_are_one_atlas_and_not_sewn_together():
