@@ -178,8 +178,13 @@ class UV_OT_atlas_refine_select_problems(bpy.types.Operator):
                 ("UNWRAPPED", "Not Unwrapped", "Charts that are a point or a line in the UV map"),
                 ("MIRRORED", "Mirrored", "Charts that are turned over as a whole"),
                 ("NON_MANIFOLD", "Non-Manifold", "Faces at edges of more than two faces, or wound against their neighbour"),
+                (
+                    "LEFT",
+                    "Left by the Last Run",
+                    "Charts that the refinement whose result is shown could not use, whatever the reason",
+                ),
             ],
-            default={"OVERLAPPING", "FLIPPED", "ZERO_AREA", "UNWRAPPED", "NON_MANIFOLD"},
+            default={"OVERLAPPING", "FLIPPED", "ZERO_AREA", "UNWRAPPED", "NON_MANIFOLD", "LEFT"},
         )
     }
 
@@ -215,7 +220,7 @@ class UV_OT_atlas_refine_select_problems(bpy.types.Operator):
         return not reason
 
     def _select(self, obj, uv_map, wanted):
-        faces = problems.find(engine.module, obj, uv_map)
+        faces = problems.find(engine.module, obj, uv_map, tasks.faces_left(obj.name))
         chosen = sorted({int(face) for kind in wanted for face in faces[kind]})
         selection.select_faces(obj, uv_map, chosen)
         words = [counted(len(faces[kind]), f"{problems.KINDS[kind]} face") for kind in wanted if len(faces[kind])]

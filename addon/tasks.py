@@ -6,6 +6,7 @@ import os
 from dataclasses import dataclass
 
 import bpy
+import numpy as np
 
 from . import engine
 from .bridge import cuts
@@ -38,6 +39,7 @@ class Done:
     result: object = None
     measures: object = None
     notes: tuple = ()
+    left: tuple = ()  # (object's name, faces) of charts that were left as they are
     prints: tuple = ()  # (object's name, UV map, fingerprint) of what it is true of
 
 
@@ -111,7 +113,14 @@ class Atlas:
 
     def _done(self, result, maps):
         prints = tuple((part.name, uv_map, _print(part.name, uv_map)) for part, uv_map in zip(self.parts, maps, strict=True))
-        return self._shown(prints, result=result)
+        return self._shown(prints, result=result, left=self._left(result))
+
+    def _left(self, result):
+        """Nothing where faces were divided: their numbers are others now."""
+        if result.cut is not None:
+            return ()
+        left = np.array([chart.fate == "left" for chart in result.charts])[result.face_charts]
+        return tuple((part.name, self.request.joined.faces_of(k, left)) for k, part in enumerate(self.parts))
 
     def measure(self):
         """What the panel shows of the meshes as they are."""
@@ -261,6 +270,12 @@ def last_if_true():
         if not all(_print(name, uv_map) == known for done in last for name, uv_map, known in done.prints):
             last = None
     return last
+
+
+def faces_left(object_name):
+    """The object's faces that the run whose result is shown left as they are."""
+    left = [faces for done in last_if_true() or () for name, faces in done.left if name == object_name]
+    return np.concatenate(left) if left else np.zeros(0, dtype=np.int64)
 
 
 def _print(object_name, uv_map):

@@ -340,6 +340,17 @@ class Broken(unittest.TestCase):
         bpy.ops.uv.atlas_refine_select_problems(kinds={"OVERLAPPING"})
         self.assertEqual(self.selected(), [48, *range(84, 102)])
 
+    def test_charts_that_the_last_run_left_are_found_while_that_is_true(self):
+        self.change(lambda uvs: 0 * uvs + 0.5, range(84, 102))
+        bpy.ops.uv.atlas_refine()
+        bpy.ops.uv.atlas_refine_select_problems(kinds={"LEFT"})
+        self.assertEqual(self.selected(), list(range(84, 102)))
+        self.change(lambda uvs: 0.5 * uvs, range(48))
+        self.obj.data.update()
+        bpy.context.view_layer.update()
+        bpy.ops.uv.atlas_refine_select_problems(kinds={"LEFT"})
+        self.assertEqual(self.selected(), [])
+
     def test_non_manifold_faces_are_found(self):
         bpy.ops.mesh.primitive_plane_add()
         self.obj = bpy.context.object

@@ -14,15 +14,15 @@ KINDS = {
     "unwrapped": "not unwrapped",
     "mirrored": "mirrored",
     "non_manifold": "non-manifold",
+    "left": "left",
 }
 
 
-def find(engine, obj, uv_map):
-    """Indices of faces by kind."""
+def find(engine, obj, uv_map, left):
+    """Indices of faces by kind; `left`: those that the last refinement left as they are."""
     atlas = bridge.read_atlas(obj, uv_map)
-    non_manifold = faces_at_fault(atlas)
+    own = {"non_manifold": faces_at_fault(atlas), "left": left}
     if np.isfinite(atlas.corner_uvs).any():
-        return {**engine.find_problems(*atlas.as_tuple(), name=obj.name), "non_manifold": non_manifold}
+        return {**engine.find_problems(*atlas.as_tuple(), name=obj.name), **own}
     none = np.zeros(0, dtype=np.int32)
-    every = np.arange(len(atlas.face_offsets) - 1)
-    return {**dict.fromkeys(KINDS, none), "unwrapped": every, "non_manifold": non_manifold}
+    return {**dict.fromkeys(KINDS, none), "unwrapped": np.arange(len(atlas.face_offsets) - 1), **own}

@@ -91,6 +91,10 @@ class Joined:
         uvs[self.corners[k]] = corner_uvs[self.first_corners[k] : self.first_corners[k + 1]]
         return uvs
 
+    def faces_of(self, k, flags):
+        """Numbers of the part's faces that a flag per face of the whole is set for."""
+        return self.faces[k][flags[self.first_faces[k] : self.first_faces[k + 1]]]
+
     def seams_of(self, k, seams):
         """Those of (S, 2) vertices that lie in the part, in its numbers."""
         own = np.all((seams >= self.first_vertices[k]) & (seams < self.first_vertices[k + 1]), axis=1)

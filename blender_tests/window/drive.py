@@ -27,7 +27,7 @@ WAIT_LIMIT_SECONDS = 240  # only what hangs takes as long
 TAB = (10, 130)
 SEAMS = (84, 156)
 BUTTON = (122, 80)
-TAB_3D = 180  # the same tab in the 3D view, from the top edge
+TAB_3D = 138  # the same tab in the 3D view, from the top edge, where no object is active
 ROW = 23
 
 
@@ -286,6 +286,7 @@ def test_the_3d_view_has_the_panel():
     panel = bpy.types.VIEW3D_PT_atlas_refine
     original = panel.draw
     panel.draw = lambda self, context: drawn.append(True) or original(self, context)
+    bpy.context.view_layer.objects.active = None
     area = uv_editor()
     area.ui_type = "VIEW_3D"
     area.spaces.active.show_region_ui = True
