@@ -12,6 +12,7 @@
 #include "reduce/goal.h"
 #include "report/certify.h"
 #include "report/locked.h"
+#include "report/texture.h"
 #include "support/parallel.h"
 #include "whole.h"
 

@@ -15,6 +15,7 @@
 #include "report/note_repairs.h"
 #include "report/options.h"
 #include "report/outcome.h"
+#include "report/texture.h"
 #include "support/monitor.h"
 
 namespace atlas_refine {

@@ -14,6 +14,7 @@
 #include "report/journal.h"
 #include "report/kept_faces.h"
 #include "report/locked.h"
+#include "report/texture.h"
 
 namespace atlas_refine {
 namespace {

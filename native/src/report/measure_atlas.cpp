@@ -6,8 +6,8 @@
 #include "input/take_part.h"
 #include "measure/certificate.h"
 #include "measure/metrics.h"
-#include "report/locked.h"
 #include "report/options.h"
+#include "report/texture.h"
 
 namespace atlas_refine {
 
