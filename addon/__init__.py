@@ -12,7 +12,7 @@ bl_info = {
     "author": "Atlas Refine contributors",
     "version": (0, 1, 0),
     "blender": (3, 4, 0),
-    "location": "UV Editor > Sidebar > Atlas Refine",
+    "location": "Sidebar of UV Editor and 3D View > Atlas Refine; UV menus",
     "description": "Bring a UV map to a packing efficiency bound",
     "category": "UV",
 }

@@ -4,10 +4,12 @@
 import sys
 
 try:
-    from .native import atlas_refine
+    from .native import atlas_refine as module
 except ImportError as error:
     built_for = "this add-on's engine does not load on Python {}.{}".format(*sys.version_info)
-    raise ImportError(f"Atlas Refine: {built_for}: {error}") from error
+    raise ImportError(f"Atlas Refine: {built_for}: {error}", name=error.name) from error
 
-AtlasRefineError = atlas_refine.AtlasRefineError
-start = atlas_refine.start
+AtlasRefineError = module.AtlasRefineError
+start = module.start
+measure = module.measure
+find_problems = module.find_problems

@@ -1,18 +1,44 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""uv.atlas_refine: at once in scripts, beside Blender with progress and Esc from a button."""
+"""uv.atlas_refine: at once in scripts, beside Blender with progress and Esc from a button. And its two helpers, which measure and
+select."""
 
 import bpy
-from bpy.props import StringProperty
+from bpy.props import EnumProperty
 
-from . import tasks
-from .core.summary import headline
+from . import drawing, engine, tasks
+from .bridge import parts as objects
+from .bridge import problems, selection
+from .bridge.mesh import MeshError, find_uv_map
+from .core.summary import headline, measured, notes
+from .core.words import counted, phase, plain
 from .properties import other_properties, pe_bound_property, seams_property, sigma_property, to_options
 
 POLL_SECONDS = 0.1
 
 
+def poll_objects(cls, context):
+    """Whether there is something to work on; the message says why not."""
+    found = objects.objects_of(context)
+    if not found:
+        cls.poll_message_set("Select a mesh object")
+        return False
+    reasons = [(obj.name, objects.why_not(obj)) for obj in found]
+    if all(reason for _, reason in reasons):
+        cls.poll_message_set(f"{reasons[0][0]}: {reasons[0][1]}")
+        return False
+    if tasks.running is not None:
+        cls.poll_message_set("A refinement is running; Esc stops it")
+        return False
+    return True
+
+
+def report_problem(operator, name, text):
+    text = plain(text)
+    operator.report({"ERROR"}, text if text.startswith(name) else f"{name}: {text}")
+
+
 class UV_OT_atlas_refine(bpy.types.Operator):
-    """Bend, place and, where Seams allows it, cut the charts of the active object's UV map until it holds the packing efficiency bound"""
+    """Move, bend and, where Seams allows it, cut the UV charts of the selected objects until they cover the wanted part of the texture"""
 
     bl_idname = "uv.atlas_refine"
     bl_label = "Refine Atlas"
@@ -23,142 +49,194 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         "seams": seams_property(),
         "sigma": sigma_property(),
         **other_properties(),
-        "uv_map": StringProperty(name="UV Map", description="Name or index of the UV map; empty: the active one"),
     }
 
     @classmethod
     def poll(cls, context):
-        obj = context.active_object
-        if obj is None or obj.type != "MESH":
-            cls.poll_message_set("Needs an active mesh object")
-            return False
-        if tasks.running is not None:
-            cls.poll_message_set("A refinement is running; Esc stops it")
-            return False
-        return True
+        return poll_objects(cls, context)
 
-    def draw(self, _context):
+    def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
-        layout.prop(self, "uv_map")
-        draw_options(layout, self)
+        drawing.draw_use(layout, self)
+        drawing.draw_main(layout, self, context)
+        drawing.draw_protected(layout, self, context)
+        drawing.draw_advanced(layout, self)
 
     def execute(self, context):
-        task = self._start(context)
-        if task is None:
+        run = self._start(context)
+        if run is None:
             return {"CANCELLED"}
-        while not task.job.wait(POLL_SECONDS):  # in steps, so that Ctrl-C is heard
+        while not run.wait(POLL_SECONDS):  # in steps, so that Ctrl-C is heard
             pass
-        return self._finish(task)
+        return self._finish(run)
 
     def invoke(self, context, _event):
         if bpy.app.background:
             return self.execute(context)
-        self._task = self._start(context, beside_window=True)
-        if self._task is None:
+        self._run = self._start(context, beside_window=True)
+        if self._run is None:
             return {"CANCELLED"}
-        tasks.running = self._task
+        tasks.running = self._run
         self._shown = ""
         self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        job = self._task.job
         if event.type == "ESC" and event.value == "PRESS":
-            job.cancel()
+            self._run.cancel()
             return {"RUNNING_MODAL"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
-        if not job.done:
-            self._show_progress(context, job.progress)
+        if not self._run.done:
+            self._show_progress(context)
             return {"PASS_THROUGH"}
         self._leave(context)
-        return self._finish(self._task)
+        return self._finish(self._run)
 
     def cancel(self, context):
         """Blender ends the operator: another file, a closed window."""
         self._leave(context)
 
     def _start(self, context, beside_window=False):
-        obj = context.active_object
-        try:
-            return tasks.Task(obj, self.uv_map, to_options(self), beside_window)
-        except tasks.FAILURES as error:
-            self._report_failure(obj.name, error)
-            return None
+        run = tasks.Run(context, to_options(self), beside_window)
+        if run.atlases:
+            return run
+        for name, text in run.problems or [("Atlas Refine", "there is nothing to refine")]:
+            report_problem(self, name, text)
+        return None
 
-    def _finish(self, task):
-        try:
-            result = task.finish()
-        except tasks.FAILURES as error:
-            self._report_failure(task.object_name, error)
+    def _finish(self, run):
+        if run.cancelled:
+            self.report({"INFO"}, "Stopped; nothing was changed")
             return {"CANCELLED"}
-        for warning in task.warnings(result):
-            self.report({"WARNING"}, f"{task.object_name}: {warning}")
-        self.report({"INFO"}, f"{task.object_name}: {headline(result)}")
-        return {"FINISHED"}
+        all_done = run.finish()
+        for done in all_done:
+            for note in (*done.notes, *notes(done.result)):
+                self.report({"WARNING"}, note if note.startswith(done.title) else f"{done.title}: {note}")
+        for name, text in run.problems:
+            report_problem(self, name, text)
+        for done in all_done:
+            self.report({"INFO"}, f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}")
+        return {"FINISHED"} if all_done else {"CANCELLED"}
 
-    def _report_failure(self, object_name, error):
-        text = str(error)
-        cancelled = getattr(error, "code", "") == "cancelled"
-        self.report({"INFO" if cancelled else "ERROR"}, text if object_name in text else f"{object_name}: {text}")
-
-    def _show_progress(self, context, progress):
-        efficiency = f", PE {progress.pe:.2f}" if progress.pe else ""
-        text = f"Refining: {progress.stage} {100 * progress.fraction:.0f} %{efficiency} (Esc stops)"
+    def _show_progress(self, context):
+        progress, fraction = self._run.progress
+        text = f"Refining: {phase(progress.stage)} {100 * fraction:.0f} % (Esc stops)"
         if text != self._shown:  # each redraw costs the window time
             self._shown = text
             context.workspace.status_text_set(text)
-            redraw_panels(context)
+            drawing.redraw_panels(context)
 
     def _leave(self, context):
         tasks.stop_running()
         context.window_manager.event_timer_remove(self._timer)
         if context.workspace is not None:
             context.workspace.status_text_set(None)
-        redraw_panels(context)
+        drawing.redraw_panels(context)
 
 
-def draw_options(layout, holder):
-    """The options, in the panel and in the redo panel alike."""
-    layout.prop(holder, "pe_bound")
-    layout.prop(holder, "seams")
-    if holder.seams == "RECTANGLES":
-        layout.prop(holder, "cut")
-        layout.prop(holder, "sigma")
-    layout.prop(holder, "open_closed")
-    layout.prop(holder, "stacks")
-    layout.prop(holder, "density")
-    layout.prop(holder, "aspect")
-    layout.prop(holder, "gap")
-    if holder.gap == "PIXELS":
-        layout.prop(holder, "gap_px", text="Pixels")
-        layout.prop(holder, "texture_size")
-    layout.prop(holder, "seed")
-    layout.prop(holder, "best_effort")
+class UV_OT_atlas_refine_measure(bpy.types.Operator):
+    """Show how much of the texture the UV charts cover, and how distorted they are; nothing is changed"""
+
+    bl_idname = "uv.atlas_refine_measure"
+    bl_label = "Measure Atlas"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context):
+        return poll_objects(cls, context)
+
+    def execute(self, context):
+        trouble = []
+        found = tasks.measure_all(context, to_options(context.scene.atlas_refine), trouble)
+        for name, text in trouble:
+            report_problem(self, name, text)
+        for done in found:
+            self.report({"INFO"}, f"{done.title}: {measured(done.measures, done.is_free, done.reached_beyond)}")
+        drawing.redraw_panels(context)
+        return {"FINISHED"} if found else {"CANCELLED"}
 
 
-def redraw_panels(context):
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "IMAGE_EDITOR":
-                for region in area.regions:
-                    if region.type == "UI":
-                        region.tag_redraw()
+class UV_OT_atlas_refine_select_problems(bpy.types.Operator):
+    """Select the faces that a refinement has to mend or to leave as they are"""
+
+    bl_idname = "uv.atlas_refine_select_problems"
+    bl_label = "Select UV Problems"
+    bl_options = {"REGISTER", "UNDO"}
+
+    __annotations__ = {
+        "kinds": EnumProperty(
+            name="Problems",
+            description="What is selected",
+            options={"ENUM_FLAG"},
+            items=[
+                ("OVERLAPPING", "Overlapping", "Faces that cover a part of another face in the UV map; stacks too"),
+                ("FLIPPED", "Flipped", "Faces that are turned over against the rest of their chart"),
+                ("ZERO_AREA", "Zero Area", "Faces without area in the UV map"),
+                ("UNWRAPPED", "Not Unwrapped", "Charts that are a point or a line in the UV map"),
+                ("MIRRORED", "Mirrored", "Charts that are turned over as a whole"),
+                ("NON_MANIFOLD", "Non-Manifold", "Faces at edges of more than two faces, or wound against their neighbour"),
+                (
+                    "LEFT",
+                    "Left by the Last Run",
+                    "Charts that the refinement whose result is shown could not use, whatever the reason",
+                ),
+            ],
+            default={"OVERLAPPING", "FLIPPED", "ZERO_AREA", "UNWRAPPED", "NON_MANIFOLD", "LEFT"},
+        )
+    }
+
+    @classmethod
+    def poll(cls, context):
+        return poll_objects(cls, context)
+
+    def execute(self, context):
+        wanted = [kind for kind in problems.KINDS if kind.upper() in self.kinds]
+        uv_map = context.scene.atlas_refine.uv_map
+        found = [(obj, find_uv_map(obj.data, uv_map)) for obj in objects.objects_of(context) if self._is_usable(obj, uv_map)]
+        if not found:
+            return {"CANCELLED"}
+        if context.mode != "EDIT_MESH":
+            for obj, _ in found:
+                obj.select_set(True)
+            context.view_layer.objects.active = found[0][0]
+            bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_mode(type="FACE")
+        for obj, name in found:
+            self._select(obj, name, wanted)
+        return {"FINISHED"}
+
+    def _is_usable(self, obj, uv_map):
+        reason = objects.why_not(obj)
+        if not reason:
+            try:
+                find_uv_map(obj.data, uv_map)
+            except MeshError as error:
+                reason = str(error)
+        if reason:
+            report_problem(self, obj.name, reason)
+        return not reason
+
+    def _select(self, obj, uv_map, wanted):
+        faces = problems.find(engine.module, obj, uv_map, tasks.faces_left(obj.name))
+        chosen = sorted({int(face) for kind in wanted for face in faces[kind]})
+        selection.select_faces(obj, uv_map, chosen)
+        words = [counted(len(faces[kind]), f"{problems.KINDS[kind]} face") for kind in wanted if len(faces[kind])]
+        self.report({"INFO"}, f"{obj.name}: {', '.join(words) or 'no problems'}")
 
 
-@bpy.app.handlers.persistent
-def _before_load(*_):
-    tasks.stop_running()
+CLASSES = (UV_OT_atlas_refine, UV_OT_atlas_refine_measure, UV_OT_atlas_refine_select_problems)
 
 
 def register():
-    bpy.utils.register_class(UV_OT_atlas_refine)
-    bpy.app.handlers.load_pre.append(_before_load)
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    tasks.register()
 
 
 def unregister():
-    tasks.stop_running()
-    bpy.app.handlers.load_pre.remove(_before_load)
-    bpy.utils.unregister_class(UV_OT_atlas_refine)
+    tasks.unregister()
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,16 +1,121 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tab "Atlas Refine" in the UV editor's sidebar."""
+"""The tab "Atlas Refine" in the sidebars of UV editor and 3D view, and entries in the UV menus."""
 
 import bpy
 
-from . import tasks
+from . import drawing, operators, tasks
 from .bridge import versions
-from .core.summary import figures
-from .operators import UV_OT_atlas_refine, draw_options
-from .properties import OPTION_NAMES
+from .core.summary import distortion, faces_after, figures, measured, new_seams, notes, percent, use, what_was_done
+from .core.words import counted, phase
+from .properties import copy_options
+
+MOST_NOTES = 6
 
 
-class _AtlasRefinePanel:
+def _column(layout):
+    column = layout.column()
+    column.use_property_split = True
+    column.use_property_decorate = False
+    return column
+
+
+def _refine_button(layout, settings, **more):
+    layout.operator_context = "INVOKE_DEFAULT"
+    copy_options(settings, layout.operator(operators.UV_OT_atlas_refine.bl_idname, **more))
+
+
+class _Main:
+    bl_label = "Atlas Refine"
+
+    def draw(self, context):
+        settings = context.scene.atlas_refine
+        drawing.draw_use(_column(self.layout), settings)
+        if tasks.running is not None:
+            progress, fraction = tasks.running.progress
+            versions.progress_bar(self.layout, fraction, phase(progress.stage).capitalize())
+            self.layout.label(text="Esc stops")
+        else:
+            row = self.layout.row()
+            row.scale_y = 1.4
+            _refine_button(row, settings, icon="UV")
+        drawing.draw_main(_column(self.layout), settings, context)
+        row = self.layout.row(align=True)
+        row.operator(operators.UV_OT_atlas_refine_measure.bl_idname, text="Measure")
+        row.operator(operators.UV_OT_atlas_refine_select_problems.bl_idname, text="Select Problems")
+
+
+class _Protected:
+    bl_label = "Keep and Protect"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        drawing.draw_protected(_column(self.layout), context.scene.atlas_refine, context)
+
+
+class _Advanced:
+    bl_label = "Advanced"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        drawing.draw_advanced(_column(self.layout), context.scene.atlas_refine)
+
+
+class _Result:
+    bl_label = "Last Result"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and tasks.last_if_true() is not None
+
+    def draw(self, _context):
+        for done in tasks.last or ():
+            box = self.layout.box().column(align=True)
+            if done.result is None:
+                box.label(text=f"{done.title}: measured", icon="INFO")
+                box.label(text=measured(done.measures, done.is_free, done.reached_beyond))
+            else:
+                self._draw_result(box, done)
+
+    def _draw_result(self, layout, done):
+        before, after = done.result.before, done.result.after
+        layout.label(text=f"{done.title}: {what_was_done(done.result)}", icon="CHECKMARK" if done.result.bound_met else "ERROR")
+        now = percent(after.pe_fixed_aspect, down=True)
+        layout.label(text=f"{use(before, done.is_free, done.reached_beyond)} -> {now}")
+        layout.label(text=distortion(after).capitalize())
+        layout.label(text=new_seams(done.result).capitalize())
+        if done.result.cut is not None:
+            faces = faces_after(done.result, done.face_count)
+            layout.label(text=f"Faces {done.face_count} -> {faces}, charts {before.chart_count} -> {after.chart_count}")
+        told = [*done.notes, *notes(done.result)]
+        for note in told[:MOST_NOTES]:
+            layout.label(text=note, icon="DOT")
+        if len(told) > MOST_NOTES:
+            layout.label(text=f"{counted(len(told) - MOST_NOTES, 'more note')} in the Info editor", icon="DOT")
+
+
+class _Details:
+    bl_label = "Details"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and any(done.result for done in tasks.last or ())
+
+    def draw(self, _context):
+        for done in tasks.last or ():
+            if done.result is None:
+                continue
+            self.layout.label(text=done.title)
+            grid = self.layout.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
+            for text in ("", "Before", "After"):
+                grid.label(text=text)
+            for row in figures(done.result, done.face_count):
+                for text in row:
+                    grid.label(text=text)
+            self.layout.label(text=f"{sum(done.result.timings.values()):.1f} s")
+
+
+class _InUvEditor:
     bl_space_type = "IMAGE_EDITOR"
     bl_region_type = "UI"
     bl_category = "Atlas Refine"
@@ -20,55 +125,56 @@ class _AtlasRefinePanel:
         return context.space_data.mode == "UV"
 
 
-class IMAGE_PT_atlas_refine(_AtlasRefinePanel, bpy.types.Panel):
-    bl_label = "Atlas Refine"
-
-    def draw(self, context):
-        settings = context.scene.atlas_refine
-        column = self.layout.column()
-        column.use_property_split = True
-        column.use_property_decorate = False
-        draw_options(column, settings)
-        if tasks.running is not None:
-            progress = tasks.running.job.progress
-            versions.progress_bar(self.layout, progress.fraction, progress.stage.capitalize())
-            self.layout.label(text="Esc stops")
-            return
-        row = self.layout.row()
-        row.scale_y = 1.4
-        row.operator_context = "INVOKE_DEFAULT"
-        button = row.operator(UV_OT_atlas_refine.bl_idname, icon="UV")
-        for name in OPTION_NAMES:
-            setattr(button, name, getattr(settings, name))
-
-
-class IMAGE_PT_atlas_refine_result(_AtlasRefinePanel, bpy.types.Panel):
-    bl_label = "Last Result"
-    bl_parent_id = "IMAGE_PT_atlas_refine"
+class _In3dView:
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Atlas Refine"
 
     @classmethod
     def poll(cls, context):
-        return super().poll(context) and tasks.last is not None
-
-    def draw(self, _context):
-        object_name, face_count, result = tasks.last
-        self.layout.label(text=f"{object_name}: {result.intervention}", icon="CHECKMARK" if result.bound_met else "ERROR")
-        grid = self.layout.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
-        for text in ("", "Before", "After"):
-            grid.label(text=text)
-        for row in figures(result, face_count):
-            for text in row:
-                grid.label(text=text)
+        return context.mode in {"OBJECT", "EDIT_MESH"}
 
 
-CLASSES = (IMAGE_PT_atlas_refine, IMAGE_PT_atlas_refine_result)
+def _panels():
+    """One class for each panel and editor."""
+    for prefix, editor in (("IMAGE", _InUvEditor), ("VIEW3D", _In3dView)):
+        main = f"{prefix}_PT_atlas_refine"
+        result = f"{main}_result"
+        for name, panel, parent in (
+            (main, _Main, None),
+            (f"{main}_protected", _Protected, main),
+            (f"{main}_advanced", _Advanced, main),
+            (result, _Result, main),
+            (f"{main}_details", _Details, result),
+        ):
+            attributes = {"bl_idname": name, **({"bl_parent_id": parent} if parent else {})}
+            yield type(name, (panel, editor, bpy.types.Panel), attributes)
+
+
+CLASSES = tuple(_panels())
+
+
+def _draw_menu(self, context):
+    self.layout.separator()
+    _refine_button(self.layout, context.scene.atlas_refine, text="Refine Atlas", icon="UV")
+    self.layout.operator_context = "EXEC_DEFAULT"
+    for operator in (operators.UV_OT_atlas_refine_measure, operators.UV_OT_atlas_refine_select_problems):
+        self.layout.operator(operator.bl_idname)
+
+
+#: The last one so that F3 finds the operators in the 3D view's object mode, which has no UV menu.
+MENUS = ("IMAGE_MT_uvs", "VIEW3D_MT_uv_map", "VIEW3D_MT_object")
 
 
 def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
+    for menu in MENUS:
+        getattr(bpy.types, menu).append(_draw_menu)
 
 
 def unregister():
+    for menu in reversed(MENUS):
+        getattr(bpy.types, menu).remove(_draw_menu)
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

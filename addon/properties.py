@@ -1,66 +1,47 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The options of a refinement as Blender properties, for the operator, the scene and the preferences."""
 
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from .core.options import Options
 
-OPTION_NAMES = (
-    "pe_bound",
-    "seams",
-    "cut",
-    "open_closed",
-    "stacks",
-    "sigma",
-    "aspect",
-    "density",
-    "gap",
-    "gap_px",
-    "texture_size",
-    "seed",
-    "best_effort",
-)
+#: Limits are soft where a script's 1.2 must reach the engine and be refused there, not be cut off in silence.
 
 
 def pe_bound_property(**more):
     return FloatProperty(
-        name="PE Bound",
-        description="Packing efficiency to reach: the part of the UV box that charts cover",
+        name="Texture Use",
+        description="Part of the texture that the charts are to cover: 0.8 is 80 %. Higher bends them more",
         default=Options.pe_bound,
         soft_min=0.05,
-        soft_max=0.99,  # soft, here and below: a script's 1.2 must reach the engine and be refused there, not be cut off in silence
+        soft_max=0.99,
         step=1,
-        precision=3,
+        precision=2,
         **more,
     )
 
 
 #: Their numbers are stored in files.
 SEAMS = [
-    ("NONE", "None", "Charts bend inside a shrinking box; the mesh stays as it is", 0),
+    ("NONE", "None", "Charts move and bend; no seam is added and the mesh stays as it is", 0),
     (
         "RECTANGLES",
         "Rectangles (Liu et al. 2019)",
-        "Charts are cut towards rectangles, which pack; adds seams",
+        "Charts are cut towards rectangles, which pack: adds seams, and bends the charts less",
         1,
     ),
 ]
 
 
 def seams_property(**more):
-    return EnumProperty(
-        name="Seams",
-        description="Where new seams may come from",
-        items=SEAMS,
-        default=Options.seams,
-        **more,
-    )
+    return EnumProperty(name="Seams", description="Where new seams may come from", items=SEAMS, default=Options.seams, **more)
 
 
 def sigma_property(**more):
     return FloatProperty(
         name="Sigma",
-        description="Smoothing of the chart borders' directions, as a part of their length; for the seams mode Rectangles",
+        description="For Seams Rectangles: how much the charts' borders are smoothed before they are straightened, as a part of "
+        "their length",
         default=Options.sigma,
         soft_min=0.0001,
         soft_max=0.1,
@@ -70,62 +51,46 @@ def sigma_property(**more):
     )
 
 
-def other_properties():
-    """The options that have no preference."""
+def _choice(name, label, description, items):
+    return EnumProperty(name=label, description=description, items=items, default=getattr(Options, name))
+
+
+def _flag(name, label, description):
+    return BoolProperty(name=label, description=description, default=getattr(Options, name))
+
+
+def _name(label, description):
+    return StringProperty(name=label, description=description, default="")
+
+
+def _box_properties():
     return {
-        "cut": EnumProperty(
-            name="Cut",
-            description="Where new seams run",
-            items=[
-                ("EDGES", "Along Edges", "Only edges of the mesh become seams: its faces stay as they are"),
-                ("SPLIT", "Across Faces", "Seams are straight and divide the faces that they cross"),
+        "aspect": _choice(
+            "aspect",
+            "Aspect",
+            "Shape of the box that the charts fill, and whose part they are to cover",
+            [
+                ("TEXTURE", "Texture", "That of the image in the UV editor, else of the active material; without one a square"),
+                ("SQUARE", "Square", "A square texture, whatever the image"),
+                (
+                    "FREE",
+                    "Free",
+                    "Whatever box bends the charts least. It seldom has the texture's shape: what it leaves of that stays empty",
+                ),
             ],
-            default=Options.cut,
         ),
-        "open_closed": BoolProperty(
-            name="Open Closed Charts",
-            description="A chart without a border cannot be flat: open it along edges, which become seams",
-            default=Options.open_closed,
-        ),
-        "stacks": EnumProperty(
-            name="Stacks",
-            description="Charts of one shape that lie on each other, mirrored ones too",
-            items=[
-                ("KEEP", "Keep", "They stay on each other and share their part of the texture"),
-                ("SEPARATE", "Separate", "Each gets a place of its own"),
+        "gap": _choice(
+            "gap",
+            "Margin",
+            "Smallest distance between two charts",
+            [
+                ("PIXELS", "Pixels", "So many pixels of the texture, also to its border: always kept"),
+                ("AUTO", "Automatic", "0.25 % of the box's diagonal, less where charts jam or bend too much; none to the border"),
             ],
-            default=Options.stacks,
-        ),
-        "aspect": EnumProperty(
-            name="Aspect",
-            description="Shape of the UV box",
-            items=[
-                ("FREE", "Free", "Any box: the one that distorts the charts least"),
-                ("SQUARE", "Square", "A square box, for square textures"),
-            ],
-            default=Options.aspect,
-        ),
-        "density": EnumProperty(
-            name="Density",
-            description="Relative texel density of the charts",
-            items=[
-                ("KEEP", "Keep", "Each chart keeps the relative scale it has, as far as bending leaves it that"),
-                ("EQUAL", "Equal", "One texel density for the whole surface"),
-            ],
-            default=Options.density,
-        ),
-        "gap": EnumProperty(
-            name="Gap",
-            description="Smallest distance between two charts",
-            items=[
-                ("AUTO", "Automatic", "0.25 % of the box's diagonal, less where charts jam or distort too much"),
-                ("PIXELS", "Pixels", "So many pixels at a texture size, whatever it takes"),
-            ],
-            default=Options.gap,
         ),
         "gap_px": FloatProperty(
-            name="Gap Pixels",
-            description="Smallest distance between two charts in pixels, where Gap is Pixels",
+            name="Margin Pixels",
+            description="Smallest distance between two charts, and of a chart to the texture's border, in pixels",
             default=Options.gap_px,
             min=0.0,
             soft_max=64.0,
@@ -133,20 +98,150 @@ def other_properties():
         ),
         "texture_size": IntProperty(
             name="Texture Size",
-            description="Pixels of the texture's longer side, where Gap is Pixels",
+            description="Pixels of the texture's longer side, where no image tells them",
             default=Options.texture_size,
             min=16,
             max=65536,
         ),
-        "seed": IntProperty(name="Seed", description="The same seed gives the same result", default=Options.seed, min=0),
-        "best_effort": BoolProperty(
-            name="Best Effort",
-            description="Where the bound is not reached, take the best valid UV map that was found",
-            default=Options.best_effort,
+        "atlases": _choice(
+            "atlases",
+            "Objects",
+            "What shares one texture",
+            [
+                ("ALL", "One Atlas", "All selected objects share one texture"),
+                ("OBJECT", "One for Each", "Each object has a texture of its own"),
+                ("MATERIAL", "By Material", "What has the same material shares a texture, across the selected objects"),
+            ],
+        ),
+        "tiles": _choice(
+            "tiles",
+            "UDIM Tiles",
+            "What becomes of charts in other tiles than the first",
+            [
+                ("TEXTURE", "As the Texture", "With a tiled image every chart stays in its tile; else all go to the first"),
+                ("EACH", "Each Its Own", "Every chart stays in the tile that it lies in; each tile is filled by itself"),
+                ("ACTIVE", "Active Only", "Only charts in the active tile change"),
+                ("ONE", "All to the First", "All charts go to tile 1001"),
+            ],
         ),
     }
+
+
+def _chart_properties():
+    return {
+        "cut": _choice(
+            "cut",
+            "Cut",
+            "Where new seams run",
+            [
+                ("EDGES", "Along Edges", "Only edges of the mesh become seams: its faces stay as they are"),
+                ("SPLIT", "Across Faces", "Seams are straight and divide the faces that they cross"),
+            ],
+        ),
+        "stacks": _choice(
+            "stacks",
+            "Stacks",
+            "Charts of one shape that lie on each other, mirrored ones too",
+            [
+                ("KEEP", "Keep", "They stay on each other and share their part of the texture"),
+                ("SEPARATE", "Separate", "Each gets a place of its own"),
+            ],
+        ),
+        "density": _choice(
+            "density",
+            "Texel Density",
+            "How large the charts are beside each other",
+            [
+                ("KEEP", "Keep", "Each chart keeps the relative size it has, as far as bending leaves it that"),
+                ("EQUAL", "Equal", "The same number of texels for every part of the surface"),
+            ],
+        ),
+        "keep_shape": _name(
+            "Keep Shape", "Vertex group or face attribute: charts with such a face are moved and turned, never bent"
+        ),
+        "importance": _name(
+            "Importance",
+            "Vertex group or face attribute from 0 to 1: faces at 1 resist distortion ten times as much as those at 0",
+        ),
+        "no_seam": _name("No Seams", "Edge attribute: no new seam runs along these edges"),
+        "prefer_seam": _name("Prefer Seams", "Edge attribute: new seams along edges like to follow these"),
+        "write_to": _choice(
+            "write_to",
+            "Write To",
+            "Where the result goes",
+            [
+                ("MAP", "The Map", "The UV map itself changes"),
+                ("COPY", "A Copy", "A new UV map, which becomes the active one; the old one stays, with what is painted by it"),
+            ],
+        ),
+        "mark_seams": _flag("mark_seams", "Mark New Seams", "Edges that are cut in the UV map are marked as seams of the mesh"),
+    }
+
+
+def _advanced_properties():
+    return {
+        "relax": _flag(
+            "relax",
+            "Relax as Well",
+            "Where moving the charts is enough, bend them all the same, as far as that lessens their distortion",
+        ),
+        "max_distortion": FloatProperty(
+            name="Largest Distortion",
+            description="Refuse results whose mean distortion is above this: 1 is none, 1.05 hardly seen, 2 much. 0: no limit",
+            default=Options.max_distortion,
+            soft_min=0.0,
+            soft_max=4.0,
+            precision=3,
+        ),
+        "open_closed": _flag(
+            "open_closed",
+            "Open Closed Charts",
+            "A chart without a border cannot be flat: open it along edges, which become seams",
+        ),
+        "best_effort": _flag(
+            "best_effort",
+            "Best Effort",
+            "Where the wanted use is not reached, take the best valid UV map that was found",
+        ),
+        "candidates": IntProperty(
+            name="Candidates",
+            description="For Seams Rectangles: layouts that are tried. More take longer and may need fewer seams",
+            default=Options.candidates,
+            soft_min=1,
+            soft_max=5000,
+        ),
+        "seed": IntProperty(
+            name="Seed",
+            description="The same seed gives the same result; another one may find another layout",
+            default=Options.seed,
+            min=0,
+        ),
+        "threads": IntProperty(
+            name="Threads",
+            description="Processor threads; 0: all but one, which Blender's window keeps. The result is the same",
+            default=Options.threads,
+            min=0,
+            max=1024,
+        ),
+    }
+
+
+def other_properties():
+    """The options that have no preference."""
+    uv_map = _name("UV Map", "Name or index of the UV map; empty: the active one")
+    return {**_box_properties(), **_chart_properties(), "uv_map": uv_map, **_advanced_properties()}
+
+
+#: In the order of Options.
+OPTION_NAMES = tuple(Options.__dataclass_fields__)
 
 
 def to_options(holder):
     """An operator's or a scene's properties as core Options."""
     return Options(**{name: getattr(holder, name) for name in OPTION_NAMES})
+
+
+def copy_options(holder, operator):
+    """From the scene to a button's operator."""
+    for name in OPTION_NAMES:
+        setattr(operator, name, getattr(holder, name))

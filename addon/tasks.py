@@ -1,75 +1,332 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One refinement: read the mesh, run the engine beside Blender, write what comes. At most one runs with a window's progress."""
+"""One call of the operator: read the meshes, run the engine beside Blender, write what comes. At most one runs with a window's progress."""
 
+import hashlib
 import os
+from dataclasses import dataclass
 
 import bpy
+import numpy as np
 
+from . import engine
 from .bridge import cuts
 from .bridge import mesh as bridge
+from .bridge import parts as objects
+from .bridge.texture import active_tile, find_texture
 from .core.atlas import stored_uvs
 from .core.cuts import plan_cut, seam_edges
-from .engine import AtlasRefineError, start
+from .core.request import NothingToDoError, prepare
+from .core.words import counted
 
-#: What a task may fail with for reasons that lie in the object or the options.
-FAILURES = (AtlasRefineError, bridge.MeshError, ValueError)
+#: What a run may fail with for reasons that lie in the objects or the options.
+FAILURES = (engine.AtlasRefineError, bridge.MeshError, NothingToDoError, ValueError)
 
-#: The task whose progress the panel shows.
+#: The run whose progress the panel shows.
 running = None
-#: The name of an object, how many faces it had, and the result that the panel shows.
+#: What the panel shows: the Done of the last run or measure, None where there is none or it is no longer true.
 last = None
+_in_doubt = False
 
 
-class Task:
-    """Starts at once. Holds names, not Blender's data: undo may replace that meanwhile."""
+@dataclass(frozen=True)
+class Done:
+    """A result, or measures, that the panel shows."""
 
-    def __init__(self, obj, uv_map, options, beside_window=False):
-        bridge.check_writable(obj)
+    title: str
+    face_count: int
+    is_free: bool
+    reached_beyond: bool  # charts lay beside the texture
+    result: object = None
+    measures: object = None
+    notes: tuple = ()
+    left: tuple = ()  # (object's name, faces) of charts that were left as they are
+    prints: tuple = ()  # (object's name, UV map, fingerprint) of what it is true of
+
+
+class Atlas:
+    """One run of the engine. Holds names, not Blender's data: undo may replace that meanwhile."""
+
+    def __init__(self, context, objs, options):
+        self.options = options
+        material_numbers = {}
+        self.parts = [_read(context, obj, options, material_numbers) for obj in objs]
+        self.title = objs[0].name if len(objs) == 1 else counted(len(objs), "object")
+        _require_names(self.parts, options)
+        texture = find_texture(context, objs[0])
+        tile = active_tile(context, texture)
+        self.texture = texture
+        self.request = prepare(engine.module, self.parts, options, texture, tile, list(material_numbers))
         if options.seams != "NONE" and options.cut == "SPLIT":
-            cuts.check_divisible(obj)
-        self.object_name = obj.name
-        self.uv_map = bridge.find_uv_map(obj.data, uv_map)
-        self.uneven_scale = bridge.has_uneven_scale(obj)
-        self.atlas = bridge.read_atlas(obj, self.uv_map)
-        threads = max(1, (os.cpu_count() or 1) - 1) if beside_window else 0  # one core is left to the window
-        triangles = bridge.read_triangles(obj)
-        self.job = start(
-            *self.atlas.as_tuple(), name=obj.name, threads=threads, triangles=triangles, **options.engine_arguments()
-        )
+            for obj in objs:
+                cuts.check_divisible(obj)
+            if self.request.leaves_faces_out:
+                raise bridge.MeshError("cuts across faces need all charts of the mesh: show all, or cut along edges")
+        self.notes = [note for obj in objs for note in _notes(obj)]
+        self.job = None
+
+    def start(self, threads):
+        name = self.title if len(self.parts) == 1 else ""
+        self.job = engine.start(*self.request.joined.arrays(), name=name, threads=threads, **self.request.arguments)
+
+    def write(self, result):
+        """Writes the result with all meshes as they were, or raises one of FAILURES."""
+        objs = [self._still_there(part) for part in self.parts]
+        if result.intervention == "unchanged":
+            return self._done(result, [part.uv_map for part in self.parts])
+        joined, uvs = self.request.joined, stored_uvs(result.corner_uvs)
+        plans = [self._plan(k, obj, result, uvs) for k, obj in enumerate(objs)]
+        maps = []
+        for k, (obj, part, plan) in enumerate(zip(objs, self.parts, plans, strict=True)):
+            maps.append(self._write_part(obj, part, plan, joined.uvs_of(k, uvs) if plan is None else None))
+            if plan is None and self.options.mark_seams:
+                bridge.mark_seams(obj, seam_edges(part.atlas, joined.seams_of(k, result.new_seams)))
+        return self._done(result, maps)
+
+    def _still_there(self, part):
+        obj = bpy.data.objects.get(part.name)
+        if obj is None or obj.type != "MESH":
+            raise bridge.MeshError(f"{part.name} is gone; nothing was written")
+        if part.uv_map not in obj.data.uv_layers or not bridge.read_atlas(obj, part.uv_map).same_as(part.atlas):
+            raise bridge.MeshError("the mesh was changed meanwhile; nothing was written")
+        return obj
+
+    def _plan(self, k, obj, result, uvs):
+        if result.cut is None:
+            return None
+        cuts.check_divisible(obj)  # again: its mode may be another by now
+        cut, own_uvs = self.request.joined.cut_of(k, result.cut, uvs)
+        return plan_cut(self.parts[k].atlas, cut, own_uvs)
+
+    def _write_part(self, obj, part, plan, uvs):
+        """Returns the name of the UV map that was written."""
+        target = bridge.add_copy(obj, part.uv_map) if self.options.write_to == "COPY" else part.uv_map
+        try:
+            if plan is not None:
+                cuts.write_cut(obj, target, plan, self.options.mark_seams)
+            else:
+                bridge.write_uvs(obj, target, uvs)
+        except Exception:
+            if target != part.uv_map:
+                bridge.remove_copy(obj, part.uv_map, target)
+            raise
+        return target
+
+    def _done(self, result, maps):
+        prints = tuple((part.name, uv_map, _print(part.name, uv_map)) for part, uv_map in zip(self.parts, maps, strict=True))
+        return self._shown(prints, result=result, left=self._left(result))
+
+    def _left(self, result):
+        """Nothing where faces were divided: their numbers are others now."""
+        if result.cut is not None:
+            return ()
+        left = np.array([chart.fate == "left" for chart in result.charts])[result.face_charts]
+        return tuple((part.name, self.request.joined.faces_of(k, left)) for k, part in enumerate(self.parts))
+
+    def measure(self):
+        """What the panel shows of the meshes as they are."""
+        joined, options = self.request.joined, self.options
+        measures = engine.measure(*joined.arrays(), **options.box_arguments(self.texture))
+        prints = tuple((part.name, part.uv_map, _print(part.name, part.uv_map)) for part in self.parts)
+        return self._shown(prints, measures=measures)
+
+    def _shown(self, prints, **found):
+        request = self.request
+        is_free = not request.arguments["in_texture"]
+        beyond = request.reaches_beyond and not is_free
+        return Done(self.title, request.face_count, is_free, beyond, notes=tuple(self.notes), prints=prints, **found)
+
+
+class Run:
+    """All atlases of one call, one after the other; what comes of them is written at the end."""
+
+    def __init__(self, context, options, beside_window=False):
+        self.problems = []  # (object's name, why nothing was done with it)
+        self.atlases = read_atlases(context, options, self.problems)
+        # One core is left to the window.
+        self._threads = options.threads or (max(1, (os.cpu_count() or 1) - 1) if beside_window else 0)
+        self.cancelled = False
+        self._at = 0
+        if self.atlases:
+            self.atlases[0].start(self._threads)
+
+    @property
+    def done(self):
+        """Starts the next atlas where one has come to its end."""
+        while self._at < len(self.atlases) and self.atlases[self._at].job.done:
+            self._at = len(self.atlases) if self.cancelled else self._at + 1
+            if self._at < len(self.atlases):
+                self.atlases[self._at].start(self._threads)
+        return self._at >= len(self.atlases)
+
+    def wait(self, seconds):
+        """True where all are done."""
+        if self._at < len(self.atlases):
+            self.atlases[self._at].job.wait(seconds)
+        return self.done
+
+    @property
+    def progress(self):
+        """(the engine's progress, fraction of the whole)."""
+        at = min(self._at, len(self.atlases) - 1)
+        progress = self.atlases[at].job.progress
+        return progress, (at + progress.fraction) / len(self.atlases)
+
+    def cancel(self):
+        """Unless all are done."""
+        if self._at < len(self.atlases):
+            self.cancelled = True
+            self.atlases[self._at].job.cancel()
+
+    def stop(self):
+        """Cancels and waits for the engine's thread."""
+        self.cancel()
+        if self._at < len(self.atlases):
+            self.atlases[self._at].job.wait()
 
     def finish(self):
-        """Waits for the engine, writes the result and returns it; raises one of FAILURES with the mesh as it was."""
-        global last
-        result = self.job.result()
-        obj = bpy.data.objects.get(self.object_name)
-        if obj is None or obj.type != "MESH":
-            raise bridge.MeshError("the object is gone")
-        if self.uv_map not in obj.data.uv_layers or not bridge.read_atlas(obj, self.uv_map).same_as(self.atlas):
-            raise bridge.MeshError("the mesh was changed meanwhile; nothing was written")
-        self._write(obj, result)
-        last = (self.object_name, len(self.atlas.face_offsets) - 1, result)
-        return result
+        """Writes what came and returns it, a Done for each atlas; `problems` has the others."""
+        out = []
+        for atlas in self.atlases:
+            try:
+                out.append(atlas.write(atlas.job.result()))
+            except FAILURES as error:
+                self.problems.append((atlas.title, str(error)))
+        if out:
+            show(out)
+        return out
 
-    def _write(self, obj, result):
-        if result.cut is not None:
-            cuts.check_divisible(obj)  # again: its mode may be another by now
-            cuts.write_cut(obj, self.uv_map, plan_cut(self.atlas, result.cut, stored_uvs(result.corner_uvs)))
-        elif result.intervention != "unchanged":
-            bridge.write_uvs(obj, self.uv_map, stored_uvs(result.corner_uvs))
-            bridge.mark_seams(obj, seam_edges(self.atlas, result.new_seams))
 
-    def warnings(self, result):
-        if self.uneven_scale:
-            yield "the object's scale is uneven; the UVs follow the mesh without it"
-        yield from (repair.text for repair in result.repairs)
-        yield from result.fallbacks
-        yield from result.warnings
+def read_atlases(context, options, problems):
+    """The atlases that the options ask for; what cannot be used goes to `problems`."""
+    usable = []
+    for obj in objects.objects_of(context):
+        reason = objects.why_not(obj)
+        if reason:
+            problems.append((obj.name, reason))
+        else:
+            usable.append(obj)
+    by_object = options.atlases == "OBJECT"
+    out, idle = [], []
+    for objs in ([obj] for obj in usable) if by_object else [usable] if usable else []:
+        title = objs[0].name if len(objs) == 1 else counted(len(objs), "object")
+        try:
+            out.append(Atlas(context, objs, options))
+        except NothingToDoError as error:
+            idle.append((title, str(error)))
+        except FAILURES as error:
+            problems.append((title, str(error)))
+    # Of several objects those without a selection are simply not meant.
+    if not out and not problems:
+        problems += idle
+    return out
+
+
+def measure_all(context, options, problems):
+    """A Done for each atlas as it is."""
+    out = []
+    for atlas in read_atlases(context, options, problems):
+        try:
+            out.append(atlas.measure())
+        except FAILURES as error:
+            problems.append((atlas.title, str(error)))
+    if out:
+        show(out)
+    return out
+
+
+def _read(context, obj, options, material_numbers):
+    try:
+        return objects.read_part(context, obj, options, material_numbers)
+    except bridge.MeshError as error:
+        raise bridge.MeshError(f"{obj.name}: {error}") from error
+
+
+def _require_names(parts, options):
+    for option in ("keep_shape", "importance", "no_seam", "prefer_seam"):
+        name = getattr(options, option)
+        if name and all(getattr(part, option) is None for part in parts):
+            what = "edge attribute" if option.endswith("seam") else "vertex group and no face attribute"
+            raise bridge.MeshError(f'there is no {what} "{name}"')
+
+
+def _notes(obj):
+    users = objects.users_of(obj.data)
+    if users > 1:
+        yield f"{obj.name}: {users} objects share the mesh, and all of them change"
+    if bridge.has_uneven_scale(obj):
+        yield f"{obj.name}: the object's scale is uneven; the UVs follow the mesh without it"
+
+
+def show(done):
+    global last, _in_doubt
+    last, _in_doubt = done, False
+
+
+def last_if_true():
+    """`last`, after a look at the meshes where something may have changed them."""
+    global last, _in_doubt
+    if last is not None and _in_doubt:
+        _in_doubt = False
+        if not all(_print(name, uv_map) == known for done in last for name, uv_map, known in done.prints):
+            last = None
+    return last
+
+
+def faces_left(object_name):
+    """The object's faces that the run whose result is shown left as they are."""
+    left = [faces for done in last_if_true() or () for name, faces in done.left if name == object_name]
+    return np.concatenate(left) if left else np.zeros(0, dtype=np.int64)
+
+
+def _print(object_name, uv_map):
+    """Of all that a result is true of; None where it is gone."""
+    obj = bpy.data.objects.get(object_name)
+    if obj is None or obj.type != "MESH" or uv_map not in obj.data.uv_layers:
+        return None
+    digest = hashlib.sha1(usedforsecurity=False)
+    for array in bridge.read_atlas(obj, uv_map).as_tuple():
+        digest.update(array.tobytes())
+    return digest.hexdigest()
 
 
 def stop_running(*_):
-    """Ends the running task, if there is one, and waits for its thread: before a file is loaded and on unregister."""
+    """Ends the run, if there is one, and waits for its thread: before a file is loaded and on unregister."""
     global running
     if running is not None:
-        running.job.cancel()
-        running.job.wait()
+        running.stop()
         running = None
+
+
+@bpy.app.handlers.persistent
+def _doubt(*_):
+    global _in_doubt
+    _in_doubt = True
+
+
+@bpy.app.handlers.persistent
+def _doubt_geometry(_scene, depsgraph):
+    if last is not None and any(update.is_updated_geometry for update in depsgraph.updates):
+        _doubt()
+
+
+@bpy.app.handlers.persistent
+def _before_load(*_):
+    global last
+    stop_running()
+    last = None
+
+
+_HANDLERS = (("load_pre", _before_load), ("undo_post", _doubt), ("redo_post", _doubt), ("depsgraph_update_post", _doubt_geometry))
+
+
+def register():
+    for name, function in _HANDLERS:
+        getattr(bpy.app.handlers, name).append(function)
+
+
+def unregister():
+    global last
+    stop_running()
+    last = None
+    for name, function in _HANDLERS:
+        getattr(bpy.app.handlers, name).remove(function)

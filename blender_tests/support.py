@@ -1,6 +1,10 @@
 """What the tests inside Blender share: the add-on, generated meshes, and a snapshot of everything a mesh holds."""
 
+import ctypes
 import itertools
+import os
+import sys
+import tempfile
 
 import addon_utils
 import bpy
@@ -17,8 +21,9 @@ def enable_addon():
 
 
 def fresh_scene():
-    """An empty scene with the add-on enabled."""
+    """An empty scene with the add-on enabled; in edit mode the selected faces count."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
     enable_addon()
 
 
@@ -136,3 +141,29 @@ def snapshot(obj, but_uvs_of=None):
 def changes(before, after):
     """Names of what two snapshots hold differently."""
     return sorted(name for name in set(before) | set(after) if before.get(name) != after.get(name))
+
+
+def texture_share(obj):
+    """Of the texture's square, from the stored values, where all of them lie in it."""
+    layer = obj.data.uv_layers.active
+    uvs = get_uvs(layer).astype(np.float64)
+    assert np.all((uvs >= 0) & (uvs <= 1)), (uvs.min(), uvs.max())
+    return packing_efficiency(obj.data, layer) * np.prod(uvs.max(axis=0) - uvs.min(axis=0))
+
+
+def messages(operator, **options):
+    """What an operator reports, as Blender writes it to the console; errors too."""
+    sys.stdout.flush()
+    kept = os.dup(1)
+    with tempfile.TemporaryFile() as held:
+        os.dup2(held.fileno(), 1)
+        try:
+            operator(**options)
+        except RuntimeError as error:
+            print(error, flush=True)
+        finally:
+            ctypes.CDLL(None).fflush(None)
+            os.dup2(kept, 1)
+            os.close(kept)
+        held.seek(0)
+        return held.read().decode()

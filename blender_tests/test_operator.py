@@ -69,7 +69,7 @@ class Operator(unittest.TestCase):
     def test_what_is_at_the_bound_stays_bit_for_bit(self):
         obj = add_mesh(shapes.tight())
         before = snapshot(obj)
-        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.9), {"FINISHED"})
+        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.9, aspect="FREE", gap="AUTO"), {"FINISHED"})
         self.assertEqual(changes(before, snapshot(obj)), [])
 
     def test_the_same_seed_gives_the_same_bits(self):
@@ -117,7 +117,7 @@ class Operator(unittest.TestCase):
             bpy.ops.uv.atlas_refine()
 
     def test_no_mesh_object(self):
-        with self.assertRaisesRegex(RuntimeError, "active mesh object"):
+        with self.assertRaisesRegex(RuntimeError, "Select a mesh object"):
             bpy.ops.uv.atlas_refine()
 
     def test_a_bound_out_of_range(self):
@@ -139,7 +139,9 @@ class Operator(unittest.TestCase):
 
     def test_a_bound_out_of_reach(self):
         options = {"pe_bound": 0.999, "gap": "PIXELS", "gap_px": 50, "texture_size": 1024}
-        self.assert_refused(add_mesh(), ["packing efficiency"], **options)
+        self.assert_refused(add_mesh(), ["the gap to the border of the texture leaves 0.81"], **options)
+        options["aspect"] = "FREE"
+        self.assert_refused(add_mesh(), ["the best found is texture use"], **options)
         obj = add_mesh()
         before = packing_efficiency(obj.data, obj.data.uv_layers.active)
         self.assertEqual(bpy.ops.uv.atlas_refine(best_effort=True, **options), {"FINISHED"})

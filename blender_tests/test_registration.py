@@ -31,12 +31,14 @@ class Registration(unittest.TestCase):
         properties = bpy.ops.uv.atlas_refine.get_rna_type().properties
         self.assertAlmostEqual(properties["pe_bound"].default, 0.8)
         self.assertEqual(properties["density"].default, "KEEP")
-        self.assertEqual(properties["gap"].default, "AUTO")
+        self.assertEqual(properties["gap"].default, "PIXELS")
+        self.assertEqual(properties["aspect"].default, "TEXTURE")
+        self.assertIn("stays empty", properties["aspect"].enum_items["FREE"].description)
         self.assertEqual([item.identifier for item in properties["seams"].enum_items], ["NONE", "RECTANGLES"])
         self.assertEqual(properties["seams"].default, "NONE")
         self.assertAlmostEqual(properties["sigma"].default, 0.004)
-        panel = bpy.types.IMAGE_PT_atlas_refine
-        self.assertEqual((panel.bl_space_type, panel.bl_region_type, panel.bl_category), ("IMAGE_EDITOR", "UI", "Atlas Refine"))
+        for panel, space in ((bpy.types.IMAGE_PT_atlas_refine, "IMAGE_EDITOR"), (bpy.types.VIEW3D_PT_atlas_refine, "VIEW_3D")):
+            self.assertEqual((panel.bl_space_type, panel.bl_region_type, panel.bl_category), (space, "UI", "Atlas Refine"))
         self.assertEqual(bpy.context.scene.atlas_refine.density, "KEEP")
 
     def test_preferences_are_the_defaults_of_new_scenes(self):
@@ -66,6 +68,30 @@ class Registration(unittest.TestCase):
         self.assertEqual(bpy.context.scene.atlas_refine.aspect, "SQUARE")
         self.assertEqual(bpy.context.scene.atlas_refine.seams, "RECTANGLES")
         self.assertAlmostEqual(bpy.context.scene.atlas_refine.sigma, 0.01)
+
+    def test_every_option_has_a_tooltip_without_a_full_stop(self):
+        for operator in (bpy.ops.uv.atlas_refine, bpy.ops.uv.atlas_refine_measure, bpy.ops.uv.atlas_refine_select_problems):
+            kind = operator.get_rna_type()
+            texts = [(kind.name, kind.description)]
+            for option in kind.properties:
+                if option.identifier == "rna_type":
+                    continue
+                texts.append((option.identifier, option.description))
+                if option.type == "ENUM":
+                    texts += [(item.identifier, item.description) for item in option.enum_items]
+            for name, text in texts:
+                self.assertTrue(text and not text.endswith("."), (name, text))
+
+    def test_the_menus_of_both_editors_have_it(self):
+        def ours(menu):
+            functions = getattr(bpy.types, menu).draw._draw_funcs
+            return [function for function in functions if function.__module__ == f"{MODULE}.panels"]
+
+        for menu in ("IMAGE_MT_uvs", "VIEW3D_MT_uv_map"):
+            self.assertEqual(len(ours(menu)), 1)
+            addon_utils.disable(MODULE, default_set=True)
+            self.assertEqual(ours(menu), [])
+            enable_addon()
 
     def test_disabled_and_enabled_again(self):
         for _ in range(2):

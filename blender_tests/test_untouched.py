@@ -13,7 +13,7 @@ def add_everything(obj):
     if HAS_UV_ATTRIBUTE:  # Blender 4.5 corrupts its heap where setting a pin makes the layer of pins
         mesh.attributes.new(".pn.UVMap", "BOOLEAN", "CORNER")
     for index, corner in enumerate(mesh.uv_layers.active.data):
-        corner.pin_uv = index in (3, 17, 40)
+        corner.pin_uv = index in (340, 345, 350)  # of the third chart, which stays
     other = mesh.uv_layers.new(name="Lightmap")
     set_uvs(other, get_uvs(mesh.uv_layers[0])[::-1] * 0.25)
     mesh.uv_layers.active_index = 0
@@ -68,7 +68,7 @@ class Untouched(unittest.TestCase):
     def test_in_object_mode(self):
         obj = add_mesh()
         add_everything(obj)
-        self.check(obj, lambda: bpy.ops.uv.atlas_refine(pe_bound=0.8))
+        self.check(obj, lambda: bpy.ops.uv.atlas_refine(pe_bound=0.5))
 
     def test_in_edit_mode(self):
         obj = add_mesh()
@@ -80,16 +80,15 @@ class Untouched(unittest.TestCase):
         def run():
             bpy.ops.object.mode_set(mode="EDIT")
             try:
-                return bpy.ops.uv.atlas_refine(pe_bound=0.8)
+                return bpy.ops.uv.atlas_refine(pe_bound=0.5)
             finally:
                 bpy.ops.object.mode_set(mode="OBJECT")
 
         self.check(obj, run)
 
-    def test_other_objects_are_not_touched(self):
+    def test_objects_that_are_not_selected_are_not_touched(self):
         other = add_mesh(name="Other")
         before = snapshot(other)
         add_mesh(name="Mine")
-        other.select_set(True)
         bpy.ops.uv.atlas_refine()
         self.assertEqual(changes(before, snapshot(other)), [])

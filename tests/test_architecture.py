@@ -25,7 +25,7 @@ LEVELS = [
     ["cut_along_edges"],
     ["rectangles", "whole"],
     ["one_atlas"],
-    ["refine", "group_by_tile"],
+    ["refine", "group_by_tile", "inspect"],
 ]
 # Libraries that live in one place and nowhere else.
 HOMES = {

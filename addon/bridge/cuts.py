@@ -21,20 +21,20 @@ def check_divisible(obj):
             raise MeshError(f"seams that cut faces would spoil the Multiresolution levels of {user.name}: apply them first")
 
 
-def write_cut(obj, uv_map, plan):
+def write_cut(obj, uv_map, plan, mark_seams=True):
     """Makes the object's mesh the plan's. Raises with the mesh as it was: everything is done to a copy first."""
     if obj.mode == "EDIT":
-        _write_in_edit_mode(obj, uv_map, plan)
+        _write_in_edit_mode(obj, uv_map, plan, mark_seams)
     else:
-        _write_in_object_mode(obj.data, uv_map, plan)
+        _write_in_object_mode(obj.data, uv_map, plan, mark_seams)
 
 
-def _write_in_object_mode(mesh, uv_map, plan):
+def _write_in_object_mode(mesh, uv_map, plan, mark_seams):
     normals = versions.custom_normals(mesh)
     built = bmesh.new()
     try:
         built.from_mesh(mesh)
-        divide(built, uv_map, plan)
+        divide(built, uv_map, plan, mark_seams)
         order = _check(built, uv_map, plan)
         built.to_mesh(mesh)
     finally:
@@ -44,18 +44,18 @@ def _write_in_object_mode(mesh, uv_map, plan):
     mesh.update()
 
 
-def _write_in_edit_mode(obj, uv_map, plan):
+def _write_in_edit_mode(obj, uv_map, plan, mark_seams):
     """The edit mesh itself is divided, so that selection and edit mode's memory of shape keys stay; custom normals can only be
     written in object mode."""
     live = bmesh.from_edit_mesh(obj.data)
     normals = _custom_normals_in_edit_mode(live, obj.data)
     rehearsal = live.copy()
     try:
-        divide(rehearsal, uv_map, plan)
+        divide(rehearsal, uv_map, plan, mark_seams)
         order = _check(rehearsal, uv_map, plan)
     finally:
         rehearsal.free()
-    divide(live, uv_map, plan)
+    divide(live, uv_map, plan, mark_seams)
     live.normal_update()
     bmesh.update_edit_mesh(obj.data, loop_triangles=True, destructive=True)
     if normals is not None:

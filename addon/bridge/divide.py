@@ -8,8 +8,8 @@ import bmesh
 from . import versions
 
 
-def divide(mesh, uv_map, plan):
-    """Makes the BMesh the plan's mesh, in the plan's order, with the plan's UVs in the map and its new seams marked. Where it
+def divide(mesh, uv_map, plan, mark_seams=True):
+    """Makes the BMesh the plan's mesh, in the plan's order, with the plan's UVs in the map and its new seams marked, or not. Where it
     raises, the BMesh is half done: rehearse on a copy."""
     verts, faces = list(mesh.verts), list(mesh.faces)
     source_loops = _loops_by_corner(faces, plan.changed_faces())
@@ -22,7 +22,8 @@ def divide(mesh, uv_map, plan):
     _fill_corners(mesh, plan, verts, pieces, source_loops)
     _place_new_vertices(mesh, plan, verts)
     _remove_divided(mesh, faces, set(pieces))
-    _mark_seams(mesh, plan, verts)
+    if mark_seams:
+        _mark_seams(mesh, plan, verts)
     _sort(verts, mesh.verts)
     _sort(pieces, mesh.faces)
     _write_uvs(mesh, uv_map, plan)

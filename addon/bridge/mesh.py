@@ -26,11 +26,6 @@ def find_uv_map(mesh, wanted):
     raise MeshError(f'the mesh has no UV map "{wanted}"')
 
 
-def check_writable(obj):
-    if obj.data.library is not None:
-        raise MeshError("the mesh is linked from a library and cannot be changed")
-
-
 def has_uneven_scale(obj):
     """Whether the object's scale bends the surface in a way that UV tools, which work on the mesh, do not see."""
     scale = np.abs(np.array(obj.scale))
@@ -66,6 +61,30 @@ def read_triangles(obj):
     loops = _integers(mesh.loop_triangles, "loops", 3).reshape(-1, 3)
     faces = _integers(mesh.loop_triangles, "polygon_index")
     return loops[_integers(mesh.polygons, "loop_total")[faces] > 3]
+
+
+def read_material_indices(obj):
+    if obj.mode == "EDIT":
+        return np.array([face.material_index for face in bmesh.from_edit_mesh(obj.data).faces], dtype=np.int32)
+    return _integers(obj.data.polygons, "material_index")
+
+
+def add_copy(obj, uv_map):
+    """The name of a new UV map that holds what the named one does, and is active."""
+    layers = obj.data.uv_layers
+    layers.active = layers[uv_map]
+    copy = layers.new(name=f"{uv_map} refined", do_init=True)
+    if copy is None:
+        raise MeshError("the mesh has no room for another UV map")
+    name = copy.name
+    layers.active = layers[name]
+    return name
+
+
+def remove_copy(obj, uv_map, copied):
+    layers = obj.data.uv_layers
+    layers.remove(layers[copied])
+    layers.active = layers[uv_map]
 
 
 def mark_seams(obj, edges):

@@ -24,6 +24,36 @@ def write_uvs(layer, uvs):
         layer.data.foreach_set("uv", uvs.ravel())
 
 
+def pinned_corners(mesh, uv_map):
+    """(C,) bool in object mode, None where no corner ever was pinned."""
+    layer = mesh.uv_layers[uv_map]
+    pinned = np.zeros(len(mesh.loops), dtype=bool)
+    if not hasattr(layer, "pin"):  # before 3.5
+        layer.data.foreach_get("pin_uv", pinned)
+        return pinned
+    # Not the layer's own property: to read it there may make the layer of pins.
+    attribute = mesh.attributes.get(f".pn.{uv_map}")
+    if attribute is None:
+        return None
+    attribute.data.foreach_get("value", pinned)
+    return pinned
+
+
+def is_uv_selected(loop, layer):
+    """Of a BMesh corner in the UV editor."""
+    return loop.uv_select_vert if hasattr(loop, "uv_select_vert") else loop[layer].select  # 5.0 and later; before
+
+
+def select_uv(loop, layer, selected):
+    if hasattr(loop, "uv_select_vert"):  # 5.0 and later
+        loop.uv_select_vert = loop.uv_select_edge = selected
+        loop.face.uv_select = selected
+        return
+    loop[layer].select = selected
+    if hasattr(loop[layer], "select_edge"):
+        loop[layer].select_edge = selected
+
+
 def interpolate_corner(loop, face, with_vertex):
     """Gives a BMesh corner, and its vertex where asked for, what the face holds at the vertex's place."""
     try:

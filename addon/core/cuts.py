@@ -168,7 +168,7 @@ def seam_edges(atlas, new_seams):
     """The edges that lie where new seams do. Where vertices are doubled a seam has two edges, or goes from one double to the
     other: the engine takes vertices at one position for one."""
     places = _places(atlas.positions)
-    following = _following_corners(atlas.face_offsets)
+    following = following_corners(atlas.face_offsets)
     edges = np.sort(np.column_stack([atlas.corner_vertices, atlas.corner_vertices[following]]), axis=1)
     keys, wanted = (
         ends.min(axis=1).astype(np.int64) * len(places) + ends.max(axis=1) for ends in (places[edges], places[new_seams])
@@ -177,7 +177,7 @@ def seam_edges(atlas, new_seams):
     return np.unique(edges[np.isin(keys, wanted)], axis=0)
 
 
-def _following_corners(face_offsets):
+def following_corners(face_offsets):
     """For each corner the next one of its face."""
     following = np.arange(1, face_offsets[-1] + 1)
     following[face_offsets[1:] - 1] = face_offsets[:-1]
@@ -186,7 +186,7 @@ def _following_corners(face_offsets):
 
 def _edge_splits(source, corners, weights):
     """The new vertices on edges of input faces, sorted by edge and along each; those inside of faces are left out."""
-    following = _following_corners(source.face_offsets)
+    following = following_corners(source.face_offsets)
     edges = {}
     for new, (row, three) in enumerate(zip(corners.tolist(), weights.tolist(), strict=True)):
         ends = [(corner, weight) for corner, weight in zip(row, three, strict=True) if weight > 0]

@@ -5,37 +5,81 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
+class Texture:
+    """The image that the UVs are for."""
+
+    name: str
+    width: int
+    height: int
+    is_tiled: bool = False
+    active_tile: int = 1001
+
+
+@dataclass(frozen=True)
 class Options:
     pe_bound: float = 0.8
+    aspect: str = "TEXTURE"  # TEXTURE, SQUARE or FREE
     seams: str = "NONE"  # NONE or RECTANGLES
     cut: str = "EDGES"  # EDGES or SPLIT: along the mesh's edges, or across faces
-    open_closed: bool = True
-    stacks: str = "KEEP"  # KEEP or SEPARATE
-    sigma: float = 0.004  # of RECTANGLES
-    aspect: str = "FREE"  # FREE or SQUARE
-    density: str = "KEEP"  # KEEP or EQUAL
-    gap: str = "AUTO"  # AUTO or PIXELS
+    gap: str = "PIXELS"  # PIXELS or AUTO
     gap_px: float = 4.0
-    texture_size: int = 2048
-    seed: int = 1
+    texture_size: int = 2048  # where no image tells it
+    stacks: str = "KEEP"  # KEEP or SEPARATE
+    density: str = "KEEP"  # KEEP or EQUAL
+    atlases: str = "ALL"  # ALL, OBJECT or MATERIAL
+    tiles: str = "TEXTURE"  # TEXTURE, EACH, ACTIVE or ONE
+    uv_map: str = ""  # name or index; empty: the active one
+    write_to: str = "MAP"  # MAP or COPY
+    mark_seams: bool = True
+    keep_shape: str = ""  # names of vertex groups and attributes, here and below
+    importance: str = ""
+    no_seam: str = ""
+    prefer_seam: str = ""
+    relax: bool = False
+    max_distortion: float = 0.0  # 0: no limit
+    open_closed: bool = True
     best_effort: bool = False
+    sigma: float = 0.004  # of RECTANGLES, like candidates
+    candidates: int = 500
+    seed: int = 1
+    threads: int = 0  # 0: all
 
-    def engine_arguments(self):
-        """Keywords of atlas_refine.start(), for UVs that are stored as float32."""
+    def engine_arguments(self, texture=None):
+        """Keywords of atlas_refine.start(), for UVs that are stored as float32; `texture`: of the atlas, where there is one."""
         arguments = {
             "pe_bound": round(self.pe_bound, 6),  # Blender's properties are float32: 0.8 arrives as 0.800000012
-            "box_aspect": 1.0 if self.aspect == "SQUARE" else 0.0,
+            **self.box_arguments(texture),
             "seams": self.seams.lower(),
             "cut": self.cut.lower(),
             "open_closed": self.open_closed,
             "stacks": self.stacks.lower(),
             "density": self.density.lower(),
+            "relax": self.relax,
             "seed": self.seed,
             "best_effort": self.best_effort,
             "stored": "float32",
         }
+        if self.max_distortion > 0:
+            arguments["max_distortion"] = round(self.max_distortion, 6)
         if self.seams == "RECTANGLES":
-            arguments["sigma"] = round(self.sigma, 6)
+            arguments.update(sigma=round(self.sigma, 6), candidates=self.candidates)
         if self.gap == "PIXELS":
-            arguments.update(gap=self.gap_px / self.texture_size, gap_unit="long_side")
+            arguments.update(gap=self.gap_px / self.pixels(texture), gap_unit="long_side")
         return arguments
+
+    def box_arguments(self, texture=None):
+        """The shape of the box, also for atlas_refine.measure()."""
+        if self.aspect == "FREE":
+            return {"box_aspect": 0.0, "in_texture": False}
+        ratio = texture.width / texture.height if texture and self.aspect == "TEXTURE" else 1.0
+        return {"box_aspect": min(max(ratio, 0.01), 100.0), "in_texture": True}
+
+    def pixels(self, texture=None):
+        """Of the texture's longer side."""
+        return max(texture.width, texture.height) if texture and self.aspect == "TEXTURE" else self.texture_size
+
+    def tiles_of(self, texture):
+        """EACH, ACTIVE or ONE."""
+        if self.tiles != "TEXTURE":
+            return self.tiles
+        return "EACH" if texture and texture.is_tiled else "ONE"

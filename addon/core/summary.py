@@ -1,25 +1,64 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A result's figures in words."""
+"""A result in words, and its figures with the paper's symbols for those who want them."""
+
+from .words import counted, plain
+
+#: E_d up to which distortion is called so.
+LOW, MODERATE = 1.05, 1.25
 
 
-def headline(result):
-    """One line for the status bar: what was done, PE and E_d before and after, and BL, the seams' length, where it was cut."""
-    before, after = result.before, result.after
-    seams = "" if result.cut is None else f", BL {before.boundary_length:.3f} -> {after.boundary_length:.3f}"
-    return (
-        f"{result.intervention.capitalize()}: PE {before.pe_fixed_aspect:.3f} -> {after.pe_fixed_aspect:.3f}, "
-        f"E_d {before.distortion:.4f} -> {after.distortion:.4f}{seams}"
-    )
+def headline(result, is_free=False, reached_beyond=False):
+    """One line: texture use, distortion and seams, as "Texture use 48 % -> 80 %, distortion low (worst stretch 1.3), no new seams"."""
+    after = result.after
+    now = percent(after.pe_fixed_aspect, down=True)
+    return f"{use(result.before, is_free, reached_beyond)} -> {now}, {distortion(after)}, {new_seams(result)}"
+
+
+def measured(measures, is_free=False, reaches_beyond=False):
+    return f"{use(measures, is_free, reaches_beyond)}, {distortion(measures)}, {counted(measures.chart_count, 'chart')}"
+
+
+def use(measures, is_free, reaches_beyond):
+    """What of the texture is covered says little where charts lie beside it, or on each other."""
+    what = "Box use" if is_free else "Texture use"
+    covered = "over 100 % (charts overlap)" if measures.pe_fixed_aspect > 1 else percent(measures.pe_fixed_aspect)
+    return f"{what} {covered}{' (reaching beyond it)' if reaches_beyond else ''}"
+
+
+def distortion(measures):
+    value = measures.distortion
+    word = "low" if value <= LOW else "moderate" if value <= MODERATE else "high"
+    return f"distortion {word} (worst stretch {measures.stretch_max:.1f})"
+
+
+def new_seams(result):
+    return f"{counted(result.added_seams, 'new seam edge')}" if result.added_seams else "no new seams"
+
+
+def percent(fraction, down=False):
+    """A bound of 80 % that is held must not read as 79 %, nor what is below it as held."""
+    value = 100 * fraction
+    return f"{int(value + 1e-6) if down else round(value)} %"
+
+
+def what_was_done(result):
+    """A word for the panel's first line."""
+    return {
+        "unchanged": "Already there: nothing changed",
+        "moved": "Charts moved, shapes kept",
+        "squeezed": "Charts moved and bent",
+        "cut": "Charts cut, moved and bent",
+    }[result.intervention] + ("" if result.bound_met else "; the wanted use was not reached")
 
 
 def figures(result, face_count):
-    """(name, before, after) rows for the panel; short names, for the column is narrow. `face_count` is the input's."""
+    """(name, before, after) rows for Details; short names, for the column is narrow. `face_count` is the input's."""
     before, after = result.before, result.after
     return [
         ("PE", f"{before.pe_fixed_aspect:.3f}", f"{after.pe_fixed_aspect:.3f}"),
         ("E_d", f"{before.distortion:.4f}", f"{after.distortion:.4f}"),
         ("Stretch", f"{before.stretch_99:.3f}", f"{after.stretch_99:.3f}"),
-        ("Gap", _percent(before.gap_between), _percent(after.gap_between)),
+        ("Gap", _percent_of_diagonal(before.gap_between), _percent_of_diagonal(after.gap_between)),
         ("Charts", str(before.chart_count), str(after.chart_count)),
         ("Seams", str(before.seam_edges), str(after.seam_edges)),
         ("BL", f"{before.boundary_length:.3f}", f"{after.boundary_length:.3f}"),
@@ -31,5 +70,13 @@ def faces_after(result, face_count):
     return face_count if result.cut is None else len(result.cut.face_sources)
 
 
-def _percent(fraction):
+def notes(result):
+    """What an artist should know besides the figures, one line each."""
+    for repair in result.repairs:
+        faces = f" ({counted(len(repair.faces), 'face')})" if len(repair.faces) else ""
+        yield f"{counted(len(repair.charts), 'chart')}: {repair.what}{faces}"
+    yield from (plain(text) for text in (*result.fallbacks, *result.warnings))
+
+
+def _percent_of_diagonal(fraction):
     return "-" if fraction == float("inf") else f"{100 * fraction:.2f} %"

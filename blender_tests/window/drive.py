@@ -25,8 +25,9 @@ STEP_SECONDS = 0.05
 WAIT_LIMIT_SECONDS = 240  # only what hangs takes as long
 #: Where things are in the sidebar of Blender 3.4.1's UV editor, in pixels from its right and top edge.
 TAB = (10, 130)
-SEAMS = (84, 70)
-BUTTON = (130, 259)
+SEAMS = (84, 156)
+BUTTON = (122, 80)
+TAB_3D = 138  # the same tab in the 3D view, from the top edge, where no object is active
 ROW = 23
 
 
@@ -98,6 +99,13 @@ def running():
     return tasks().running is not None
 
 
+def enter_edit_mode():
+    """With everything selected."""
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+
+
 def start(obj, pe_bound=0.8):
     bpy.context.view_layer.objects.active = obj
     bpy.context.scene.atlas_refine.pe_bound = pe_bound
@@ -152,7 +160,7 @@ def test_the_window_lives_while_it_runs_and_esc_stops_it():
     fractions = []
     for _ in range(10):  # the window's own timers run, and so does the engine
         assert running(), "over too soon to be stopped"
-        fractions.append(tasks().running.job.progress.fraction)
+        fractions.append(tasks().running.progress[1])
         yield STEP_SECONDS
     assert fractions == sorted(fractions)
     picture("running")
@@ -183,7 +191,7 @@ def test_a_mesh_that_changed_meanwhile_is_left_alone():
 def test_edit_mode_from_the_button():
     obj = add_mesh(name="Edited")
     bpy.context.view_layer.objects.active = obj
-    bpy.ops.object.mode_set(mode="EDIT")
+    enter_edit_mode()
     tasks().last = None
     yield from start(obj)
     yield lambda: tasks().last is not None and not running()
@@ -207,12 +215,12 @@ def test_rectangles_by_clicks():
     yield 0.5
     picture("rectangles")
     tasks().last = None
-    yield from click((BUTTON[0], BUTTON[1] + 2 * ROW))  # cut and sigma are shown above it now
+    yield from click(BUTTON)
     yield lambda: tasks().last is not None and not running()
     yield 0.3
     picture("cut")
     obj = bpy.data.objects["Cut"]
-    result = tasks().last[2]
+    result = tasks().last[0].result
     assert result.intervention == "cut", result.intervention
     assert len(obj.data.polygons) == len(result.cut.face_sources) > faces
     assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
@@ -226,7 +234,7 @@ def test_rectangles_in_edit_mode_with_custom_normals_and_one_undo():
     if hasattr(obj.data, "use_auto_smooth"):  # before 4.1
         obj.data.use_auto_smooth = True
     obj.data.normals_split_custom_set([(0.6, 0.0, 0.8)] * len(obj.data.loops))
-    bpy.ops.object.mode_set(mode="EDIT")
+    enter_edit_mode()
     bpy.ops.ed.undo_push(message="Made a mesh")
     bpy.context.scene.atlas_refine.seams = "RECTANGLES"
     bpy.context.scene.atlas_refine.cut = "SPLIT"
@@ -234,7 +242,7 @@ def test_rectangles_in_edit_mode_with_custom_normals_and_one_undo():
     uv_editor().tag_redraw()
     yield 0.3
     faces = len(obj.data.polygons)
-    yield from click((BUTTON[0], BUTTON[1] + 2 * ROW))
+    yield from click(BUTTON)
     yield lambda: tasks().last is not None and not running()
     yield 0.3
     obj = bpy.data.objects["Normals"]
@@ -248,6 +256,54 @@ def test_rectangles_in_edit_mode_with_custom_normals_and_one_undo():
     yield from until(lambda: faces_in_edit_mode("Normals") == faces, "one undo does not take it back")
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.scene.atlas_refine.seams = "NONE"
+
+
+def test_f3_finds_it():
+    obj = add_mesh(name="Searched")
+    bpy.context.view_layer.objects.active = obj
+    enter_edit_mode()
+    tasks().last = None
+    x, y = uv_editor().x + 300, uv_editor().y + 300
+    window().event_simulate("MOUSEMOVE", "NOTHING", x=x, y=y)
+    yield 0.3
+    yield from key("F3", over=(x, y))
+    yield 1.0
+    for letter in "refine atlas":
+        window().event_simulate(letter.upper().replace(" ", "SPACE"), "PRESS", x=x, y=y, unicode=letter)
+        yield 0.05
+        window().event_simulate(letter.upper().replace(" ", "SPACE"), "RELEASE", x=x, y=y)
+        yield 0.05
+    yield 0.5
+    picture("f3")
+    yield from key("RET", over=(x, y))
+    yield lambda: tasks().last is not None and not running()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
+
+
+def test_the_3d_view_has_the_panel():
+    drawn = []
+    panel = bpy.types.VIEW3D_PT_atlas_refine
+    original = panel.draw
+    panel.draw = lambda self, context: drawn.append(True) or original(self, context)
+    bpy.context.view_layer.objects.active = None
+    area = uv_editor()
+    area.ui_type = "VIEW_3D"
+    area.spaces.active.show_region_ui = True
+    yield 1.0
+    region = next(region for region in area.regions if region.type == "UI")
+    at = (region.x + region.width - TAB[0], region.y + region.height - TAB_3D)
+    window().event_simulate("MOUSEMOVE", "NOTHING", x=at[0], y=at[1])
+    yield 0.2
+    window().event_simulate("LEFTMOUSE", "PRESS", x=at[0], y=at[1])
+    yield 0.1
+    window().event_simulate("LEFTMOUSE", "RELEASE", x=at[0], y=at[1])
+    yield from until(lambda: drawn, "the panel is not drawn")
+    yield 0.3
+    picture("3d-view")
+    panel.draw = original
+    area.ui_type = "UV"
+    yield 0.5
 
 
 def test_another_file_ends_a_run():

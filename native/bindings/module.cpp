@@ -1,5 +1,6 @@
 // The Python module: refine(), start(), measure() and validate() on NumPy arrays.
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include <exception>
 #include <memory>
@@ -19,7 +20,8 @@ namespace atlas_refine::python {
 namespace {
 
 const std::string kRefineKeywords =
-    "pe_bound seams box_aspect gap gap_unit max_distortion relax best_effort density stored sigma candidates omega until_input "
+    "pe_bound seams box_aspect in_texture gap gap_unit max_distortion relax best_effort density stored sigma candidates omega "
+    "until_input "
     "reference importance seed threads name cut open_closed stacks collapsed rotate align_axes triangulate groups group_origins "
     "group_names keep_shape locked no_seam prefer_seam triangles";
 
@@ -37,6 +39,8 @@ seams            "none" (default): charts bend, no seam is added; "rectangles": 
                  rectangles (Liu et al. 2019), result.cut is the mesh that corner_uvs belong to
 box_aspect       width / height of the texture that [0, 1]^2 stands for, in [0.01, 100]; 0 (default) = a free box, 1 = square.
                  All lengths are taken with u stretched by it
+in_texture       the box is the texture itself (square where box_aspect is 0), in the input too: pe_fixed_aspect is what charts cover
+                 of it, UVs elsewhere do not hold the bound, and a gap that is given is kept to its border as well; default False
 gap              smallest distance between charts as a fraction of gap_unit, hard; None (default) = automatic: the largest of
                  0.0025 of the diagonal and smaller ones, each 0.6 of the one before, with which the bound is reached and its
                  last per cent costs at most 3 % of E_d; result.warnings tells why larger ones were given up
@@ -132,10 +136,10 @@ std::unique_ptr<Job> start(const py::object& positions, const py::object& face_o
 
 Measures call_measure(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
                       const py::object& corner_uvs, const py::kwargs& kwargs) {
-  const Keywords keywords = read_keywords(kwargs, "measure", "box_aspect name");
+  const Keywords keywords = read_keywords(kwargs, "measure", "box_aspect in_texture name");
   const Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
   const py::gil_scoped_release release;
-  return measure(atlas, keywords.options.box_aspect);
+  return measure(atlas, keywords.options.box_aspect, keywords.options.in_texture);
 }
 
 Validity call_validate(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
@@ -144,6 +148,39 @@ Validity call_validate(const py::object& positions, const py::object& face_offse
   const Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
   const py::gil_scoped_release release;
   return validate(atlas);
+}
+
+py::array_t<std::int32_t> call_charts_of_faces(const py::object& positions, const py::object& face_offsets,
+                                               const py::object& corner_vertices, const py::object& corner_uvs,
+                                               const py::kwargs& kwargs) {
+  const Keywords keywords = read_keywords(kwargs, "charts_of_faces", "groups name");
+  const Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  return to_array(charts_of_faces(atlas, keywords.options.groups));
+}
+
+py::dict call_find_problems(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
+                            const py::object& corner_uvs, const py::kwargs& kwargs) {
+  const Keywords keywords = read_keywords(kwargs, "find_problems", "name");
+  const Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  Problems problems;
+  {
+    const py::gil_scoped_release release;
+    problems = find_problems(atlas);
+  }
+  py::dict out;
+  out["unwrapped"] = to_array(problems.unwrapped);
+  out["zero_area"] = to_array(problems.zero_area);
+  out["flipped"] = to_array(problems.flipped);
+  out["mirrored"] = to_array(problems.mirrored);
+  out["overlapping"] = to_array(problems.overlapping);
+  return out;
+}
+
+py::tuple call_group_by_tile(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
+                             const py::object& corner_uvs, const py::kwargs& kwargs) {
+  const Keywords keywords = read_keywords(kwargs, "group_by_tile", "name");
+  const TileGroups tiles = group_by_tile(to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name));
+  return py::make_tuple(to_array(tiles.groups), to_array(tiles.origins), py::cast(tiles.names));
 }
 
 template <typename Function>
@@ -173,12 +210,27 @@ PYBIND11_MODULE(_atlas_refine, module) {
           raises);
   define(module, "start", &start, "refine() in the background: returns a Job at once." + arrays + kRefineOptionsDoc + raises);
   define(module, "measure", &call_measure,
-         "Measures an atlas as it is.\n\nKeywords box_aspect (width / height of the texture that [0, 1]^2 stands for, 0 = free) "
-         "and name." +
+         "Measures an atlas as it is.\n\nKeywords box_aspect (width / height of the texture that [0, 1]^2 stands for, 0 = free), "
+         "in_texture (pe_fixed_aspect is what charts cover of it) and name." +
              arrays + raises);
   define(module, "validate", &call_validate,
          "Exact test on the values as given: every UV triangle positive, no boundaries crossing or touching.\n\nKeyword name." +
              arrays + raises);
+  define(module, "charts_of_faces", &call_charts_of_faces,
+         "The chart that each face belongs to, an index into RefineResult.charts of a refine() of the same arrays and groups.\n\n"
+         "Keywords groups (as of refine()) and name." +
+             arrays + raises);
+  define(
+      module, "find_problems", &call_find_problems,
+      "Faces that somebody should look at, as a dict of ascending arrays: \"unwrapped\" (no UVs, or a chart that is a point or a "
+      "line), \"zero_area\", \"flipped\" (against their chart), \"mirrored\" (of charts turned over as a whole) and "
+      "\"overlapping\" (with another face; exact).\n\nKeyword name." +
+          arrays + raises);
+  define(
+      module, "group_by_tile", &call_group_by_tile,
+      "UDIM tiles as (groups, group_origins, group_names) of refine(); a chart is of the tile in which the centre of its UV box "
+      "lies.\n\nKeyword name." +
+          arrays + raises);
 }
 
 }  // namespace atlas_refine::python

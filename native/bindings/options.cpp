@@ -111,6 +111,7 @@ std::map<std::string, Reader> make_readers() {
          if (!v.is_none()) k.options.importance = to_weights(py::reinterpret_borrow<py::object>(v), s);
        }},
       {"box_aspect", [](Keywords& k, H v, S s) { k.options.box_aspect = number(v, s); }},
+      {"in_texture", flag_reader(&RefineOptions::in_texture)},
       {"gap",
        [](Keywords& k, H v, S s) {
          if (!v.is_none()) k.options.gap = Gap{number(v, s), Gap::Unit::BoxDiagonal};

@@ -45,7 +45,7 @@ Attempt cut_along_edges(const Refinement& run, CutPlan plan, const ProgressRange
   mend_pieces(run, plan.freedom, cut, plan.mended);
   RefineOptions options = run.options;
   options.relax = options.relax || !options.rectangles.until_input;
-  Solution out = place_and_squeeze({run.input, options, run.monitor, run.journal, run.threads}, cut, false, range);
+  Solution out = place_and_squeeze({run.input, options, run.monitor, run.journal, run.threads, run.asked}, cut, false, range);
   if (!holds_bound(run, {.charts = meshes_of(out.atlas), .frame = out.atlas.frame}))
     return {.failure = "cut along edges, they do not reach the bound"};
   out.intervention = Intervention::Cut;

@@ -12,6 +12,7 @@
 #include "reduce/goal.h"
 #include "report/certify.h"
 #include "report/locked.h"
+#include "report/texture.h"
 #include "support/parallel.h"
 #include "whole.h"
 
@@ -22,15 +23,17 @@ bool within_limit(const RefineOptions& options, double distortion) {
   return !options.max_distortion || distortion <= *options.max_distortion * (1 + 1e-9);
 }
 
-/// The input is valid and at the bound; a gap counts only where one was asked for.
-bool holds_already(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options) {
+/// The input is valid and at the bound; a gap counts only where one was asked for. `within`: options for the box within the
+/// border.
+bool holds_already(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options, const RefineOptions& within) {
   const Measures& before = input.measures;
   if (before.pe_fixed_aspect < options.pe_bound || !within_limit(options, before.distortion)) return false;
   if (!validate_split(input.set, freedom).valid()) return false;
-  const bool framed = any_fixed(freedom);
-  if (framed && !lies_in_texture(input.set.charts, freedom, options.box_aspect)) return false;
-  const Vec2 box = framed ? Vec2(options.box_aspect, 1) : box_of_aspect(uv_box(input.set.charts), options.box_aspect).size();
-  return !options.gap || gap_between_charts(input.set.charts, freedom) >= options.gap->length(box);
+  const bool framed = is_in_texture(freedom, options);
+  const double aspect = within.box_aspect, slack = border_of(options) > 0 ? 2 * kBorderSpare : 0;
+  if (framed && !lies_in_texture(charts_as_placed(input.set), freedom, aspect, slack)) return false;
+  const Vec2 box = framed ? Vec2(aspect, 1) : box_of_aspect(uv_box(input.set.charts), aspect).size();
+  return !within.gap || gap_between_charts(input.set.charts, freedom) >= within.gap->length(box);
 }
 
 Outcome unchanged(const InputAtlas& input, const RefineOptions& options) {
@@ -58,7 +61,9 @@ struct CertifiedSolution {
 CertifiedSolution certified(const Refinement& run, Solution solution, const ProgressRange& range) {
   run.journal.begin_stage("certify", range.part(0.96, 0.98));
   restore_shapes(run.input.set.charts, freedom_of(run.input.set, run.options), solution.atlas);
-  CertifiedAtlas atlas = certify(run.input, solution.atlas, solution.gap, run.options);
+  // Of the whole texture, where the gap was that of the box within its border.
+  if (border_of(run.asked) > 0) solution.gap = *run.asked.gap;
+  CertifiedAtlas atlas = certify(run.input, solution.atlas, solution.gap, run.asked);
   return {std::move(solution), std::move(atlas)};
 }
 
@@ -117,7 +122,7 @@ CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
     // Also where charts are not cut, that road goes on to the optimum under the bound.
     options.relax = options.relax || !options.rectangles.until_input;
   }
-  const Refinement whole{run.input, options, run.monitor, run.journal, run.threads};
+  const Refinement whole{run.input, options, run.monitor, run.journal, run.threads, run.asked};
   return certified(whole, refine_whole(whole, range.part(0, 0.96)), range);
 }
 
@@ -161,9 +166,11 @@ void warn_of_density(const InputAtlas& input, const RefineOptions& options, cons
                      Journal& journal) {
   constexpr double kNotable = 0.1;
   if (options.density != Density::Keep) return;
+  const Freedoms freedom = freedom_of(input.set, options);
   std::vector<int> changed;
   double most = 0;
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+    if (is_fixed(freedom, c)) continue;
     const double change = std::abs(charts[c].density_after / charts[c].density_before - 1);
     if (change > kNotable) changed.push_back(input.set.charts[c].number);
     most = std::max(most, change);
@@ -214,11 +221,12 @@ Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const 
                    Journal& journal) {
   note_mirrored(input, journal);
   const Freedoms freedom = freedom_of(input.set, options);
-  const bool holds = holds_already(input, freedom, options);
+  const RefineOptions within = within_border(options);
+  const bool holds = holds_already(input, freedom, options, within);
   if (holds && !options.relax) return unchanged(input, options);
   if (all_fixed(freedom)) return all_locked(input, options, holds);
 
-  const Refinement run{input, options, monitor, journal, resolve_threads(options.threads)};
+  const Refinement run{input, within, monitor, journal, resolve_threads(options.threads), options};
   CertifiedSolution result = solve(run, range);
   if (holds && result.atlas.after.distortion >= input.measures.distortion) return unchanged(input, options);
   journal.show(to_string(result.solution.intervention), result.atlas.stored);

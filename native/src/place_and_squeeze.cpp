@@ -11,6 +11,7 @@
 #include "reduce/squeeze.h"
 #include "report/locked.h"
 #include "report/note_repairs.h"
+#include "report/texture.h"
 
 namespace atlas_refine {
 namespace {

@@ -16,6 +16,7 @@
 #include "report/note_repairs.h"
 #include "report/options.h"
 #include "report/outcome.h"
+#include "report/texture.h"
 #include "report/tiles.h"
 #include "support/monitor.h"
 
@@ -162,10 +163,10 @@ RefineResult refine_usable(const Atlas& atlas, const RefineOptions& options, Mon
   return result;
 }
 
-/// Where some chart is locked the box is the texture, which is square unless said otherwise.
+/// Where some chart is locked, or where that is asked, the box is the texture, which is square unless said otherwise.
 RefineOptions with_texture(RefineOptions options) {
   const bool locked = std::any_of(options.locked.begin(), options.locked.end(), [](char flag) { return flag != 0; });
-  if (locked && options.box_aspect == 0) options.box_aspect = 1;
+  if ((locked || options.in_texture) && options.box_aspect == 0) options.box_aspect = 1;
   return options;
 }
 

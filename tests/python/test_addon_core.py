@@ -11,12 +11,15 @@ import shapes
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "addon"))
 
 from core.atlas import AtlasArrays, stored_uvs
-from core.options import Options
-from core.summary import figures, headline
+from core.manifold import faces_at_fault
+from core.options import Options, Texture
+from core.summary import figures, headline, notes, percent
+from core.words import plain
 
 
 def test_options_are_the_engines_keywords():
-    result = atlas_refine.refine(*shapes.tight(), **Options(pe_bound=0.9).engine_arguments())
+    options = Options(pe_bound=0.9, aspect="FREE", gap="AUTO", max_distortion=1.5)
+    result = atlas_refine.refine(*shapes.tight(), **options.engine_arguments())
     assert result.intervention == "unchanged"
 
 
@@ -30,9 +33,28 @@ def test_the_gap_in_pixels_is_a_fraction_of_the_texture():
     assert "gap" not in Options(gap="AUTO", gap_px=4).engine_arguments()
 
 
-def test_the_aspect_and_the_density():
-    assert Options(aspect="SQUARE").engine_arguments()["box_aspect"] == 1.0
-    assert Options().engine_arguments()["box_aspect"] == 0.0
+def test_the_gap_goes_by_the_textures_own_size():
+    options, texture = Options(gap_px=4), Texture("Skin", 512, 1024)
+    assert options.engine_arguments(texture)["gap"] == 4 / 1024
+    assert options.engine_arguments()["gap"] == 4 / 2048
+    assert Options(gap_px=4, aspect="SQUARE").engine_arguments(texture)["gap"] == 4 / 2048
+
+
+def test_the_box_is_the_textures_unless_said_otherwise():
+    wide = Texture("Skin", 1024, 512)
+    assert Options().box_arguments(wide) == {"box_aspect": 2.0, "in_texture": True}
+    assert Options().box_arguments() == {"box_aspect": 1.0, "in_texture": True}
+    assert Options(aspect="SQUARE").box_arguments(wide) == {"box_aspect": 1.0, "in_texture": True}
+    assert Options(aspect="FREE").box_arguments(wide) == {"box_aspect": 0.0, "in_texture": False}
+
+
+def test_tiles_follow_the_texture_unless_said_otherwise():
+    tiled = Texture("Skin.<UDIM>", 1024, 1024, is_tiled=True)
+    assert [Options().tiles_of(texture) for texture in (None, Texture("Skin", 8, 8), tiled)] == ["ONE", "ONE", "EACH"]
+    assert Options(tiles="ACTIVE").tiles_of(None) == "ACTIVE"
+
+
+def test_the_density():
     assert Options().engine_arguments()["density"] == "keep"
     assert Options().engine_arguments()["stored"] == "float32"
 
@@ -60,10 +82,51 @@ def test_arrays_are_compared_bit_for_bit():
 
 def test_the_words_of_a_result():
     result = atlas_refine.refine(*shapes.loose())
-    assert "PE 0.167 -> 0.8" in headline(result)
-    assert "E_d" in headline(result)
+    assert headline(result) == "Texture use 17 % -> 80 %, distortion low (worst stretch 1.5), no new seams"
+    assert headline(result, is_free=True).startswith("Box use 17 % -> 80 %")
     rows = {name: (before, after) for name, before, after in figures(result, face_count=102)}
     assert list(rows) == ["PE", "E_d", "Stretch", "Gap", "Charts", "Seams", "BL", "Faces"]
     assert rows["Faces"] == ("102", "102")
     one_chart = atlas_refine.refine(*shapes.tight())
     assert figures(one_chart, face_count=64)[3] == ("Gap", "-", "-")
+
+
+def test_a_bound_that_is_held_reads_so_and_one_that_is_missed_does_not():
+    assert percent(0.8, down=True) == "80 %"
+    assert percent(0.7999999, down=True) == "79 %"
+    assert percent(0.479) == "48 %"
+
+
+@pytest.mark.parametrize(
+    ("said", "meant"),
+    [
+        ("chart 7 has no area in the UV map", "1 chart has no area in the UV map"),
+        ("charts 3, 5: mirrored, turned over", "2 charts: mirrored, turned over"),
+        ("12 charts: mirrored", "12 charts: mirrored"),
+        ("object 'Cube': face 7 of chart 0 is flipped", "face 7 is flipped"),
+        ("the boundaries of charts 0 and 12 touch or cross near (0, 1)", "the boundaries of 2 charts touch or cross near (0, 1)"),
+    ],
+)
+def test_messages_count_charts_instead_of_numbering_them(said, meant):
+    assert plain(said) == meant
+
+
+def test_what_was_mended_and_left_is_told_by_counts():
+    positions, offsets, corners, uvs = shapes.loose()
+    uvs = uvs.copy()
+    uvs[: offsets[48]] *= [-1, 1]  # the first chart is mirrored
+    uvs[-4 * 18 :] = 0.25  # the last one is a point
+    told = list(notes(atlas_refine.refine(positions, offsets, corners, uvs)))
+    assert "1 chart: mirrored, turned over" in told
+    assert any(note.startswith("1 chart: has no area in the UV map") for note in told)
+    assert not any("chart 0" in note or "chart 2" in note for note in told)
+
+
+def test_faces_at_edges_of_three_and_of_opposite_winding():
+    positions = np.zeros((6, 3), dtype=np.float32)
+    faces = [[0, 1, 2], [1, 0, 3], [0, 1, 4], [2, 1, 5]]  # three at 0-1; the last one fits the first
+    offsets = np.arange(0, 13, 3)
+    atlas = AtlasArrays(positions, offsets, np.concatenate(faces), np.zeros((12, 2), dtype=np.float32))
+    assert faces_at_fault(atlas).tolist() == [0, 1, 2]
+    turned = AtlasArrays(positions, offsets[:3], np.array([0, 1, 2, 0, 1, 3]), np.zeros((6, 2), dtype=np.float32))
+    assert faces_at_fault(turned).tolist() == [0, 1]

@@ -288,6 +288,7 @@ def refine(
     pe_bound: float = 0.8,
     seams: Literal["none", "rectangles"] = "none",
     box_aspect: float = 0.0,
+    in_texture: bool = False,
     gap: float | None = None,
     gap_unit: Literal["diagonal", "long_side"] = "diagonal",
     max_distortion: float | None = None,
@@ -330,6 +331,7 @@ def start(
     pe_bound: float = 0.8,
     seams: Literal["none", "rectangles"] = "none",
     box_aspect: float = 0.0,
+    in_texture: bool = False,
     gap: float | None = None,
     gap_unit: Literal["diagonal", "long_side"] = "diagonal",
     max_distortion: float | None = None,
@@ -369,6 +371,7 @@ def measure(
     corner_uvs: ArrayLike,
     *,
     box_aspect: float = 0.0,
+    in_texture: bool = False,
     name: str = "",
 ) -> Measures: ...
 def validate(
@@ -379,3 +382,28 @@ def validate(
     *,
     name: str = "",
 ) -> Validity: ...
+def charts_of_faces(
+    positions: ArrayLike,
+    face_offsets: ArrayLike,
+    corner_vertices: ArrayLike,
+    corner_uvs: ArrayLike,
+    *,
+    groups: ArrayLike | None = None,
+    name: str = "",
+) -> NDArray[np.int32]: ...
+def find_problems(
+    positions: ArrayLike,
+    face_offsets: ArrayLike,
+    corner_vertices: ArrayLike,
+    corner_uvs: ArrayLike,
+    *,
+    name: str = "",
+) -> dict[Literal["unwrapped", "zero_area", "flipped", "mirrored", "overlapping"], NDArray[np.int32]]: ...
+def group_by_tile(
+    positions: ArrayLike,
+    face_offsets: ArrayLike,
+    corner_vertices: ArrayLike,
+    corner_uvs: ArrayLike,
+    *,
+    name: str = "",
+) -> tuple[NDArray[np.int32], NDArray[np.float64], list[str]]: ...

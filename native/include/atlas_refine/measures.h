@@ -49,9 +49,10 @@ struct Validity {
 };
 
 /// Measures an atlas as it is. `box_aspect` is width / height of the texture that [0, 1]^2 stands for, 0 = free: with W:H all
-/// lengths are taken with u stretched by W / H; box_width and box_height stay in UV units.
+/// lengths are taken with u stretched by W / H; box_width and box_height stay in UV units. `in_texture`: pe_fixed_aspect is what
+/// the charts cover of the texture, as with RefineOptions::in_texture.
 /// Throws RefineError(BadInput) for arrays that do not fit together or hold NaN, BadOption for an aspect outside [0.01, 100].
-Measures measure(const Atlas& atlas, double box_aspect = 0);
+Measures measure(const Atlas& atlas, double box_aspect = 0, bool in_texture = false);
 
 /// Exact certificate (Shewchuk-style filtered predicates): every UV triangle strictly positive and no two boundary edges crossing
 /// or touching, but where two vertices of a chart are one point, in space and in the UV plane (a pinch), and the faces there stay

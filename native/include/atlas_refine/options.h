@@ -65,6 +65,9 @@ struct RefineOptions {
   double pe_bound = 0.80;  ///< in (0, 1); reached, or the call throws BoundNotReached unless best_effort
   Seams seams = Seams::None;
   double box_aspect = 0;  ///< width / height of the texture that [0, 1]^2 stands for, in [0.01, 100]; 0 = a free box
+  /// The box is the texture itself, square where the aspect is free, in the input too: PE is what charts cover of it, an atlas
+  /// that lies elsewhere does not hold the bound, and a gap that is given is kept to the texture's border as well.
+  bool in_texture = false;
   /// Hard where given. Else automatic: the largest of 0.0025 of the diagonal and smaller ones, each 0.6 of the one before, with
   /// which the bound is reached without much distortion: the objective rises by at most 2 % on the way; where it rises by more,
   /// the next one is kept if it spares a quarter of that (charts that are cut: with which the rectangles pack to the bound). A

@@ -8,6 +8,7 @@
 #include "atlas_refine/atlas.h"
 #include "atlas_refine/debug_sink.h"
 #include "atlas_refine/error.h"
+#include "atlas_refine/inspect.h"
 #include "atlas_refine/measures.h"
 #include "atlas_refine/options.h"
 #include "atlas_refine/progress.h"

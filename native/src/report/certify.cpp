@@ -14,6 +14,7 @@
 #include "report/journal.h"
 #include "report/kept_faces.h"
 #include "report/locked.h"
+#include "report/texture.h"
 
 namespace atlas_refine {
 namespace {
@@ -21,13 +22,16 @@ namespace {
 /// UVs in the unit square at `origin` as they will be stored, per piece.
 std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, const Vec2& frame, const Vec2& origin,
                                           const RefineOptions& options) {
-  const Box box = frame.x() > 0 ? Box{Vec2::Zero(), frame} : box_of_aspect(uv_box(pieces), options.box_aspect);
-  const Vec2 sides = options.box_aspect > 0 ? box.size() : Vec2::Constant(box.size().maxCoeff());
+  const double aspect = options.box_aspect, border = border_of(options);
+  const Vec2 corner = aspect > 0 ? Vec2(border / aspect, border) : Vec2(Vec2::Zero()), part = 1 - 2 * corner.array();
+  const Box box = frame.x() > 0 ? Box{Vec2::Zero(), frame} : box_of_aspect(uv_box(pieces), aspect * part.x() / part.y());
+  const Vec2 sides = aspect > 0 ? box.size() : Vec2::Constant(box.size().maxCoeff());
   std::vector<std::vector<Vec2>> out;
   for (const Chart& piece : pieces) {
     std::vector<Vec2>& uvs = out.emplace_back();
     for (const Vec2& p : piece.uvs) {
-      const Vec2 uv = origin + (p - box.min).cwiseQuotient(sides).cwiseMin(1.0);
+      const Vec2 within = (p - box.min).cwiseQuotient(sides).cwiseMin(1.0);
+      const Vec2 uv = origin + corner + within.cwiseProduct(part);
       uvs.push_back(as_stored(uv, options.stored));
     }
   }
@@ -94,13 +98,30 @@ void require_valid(const InputAtlas& input, const Atlas& output, const ChartSet&
 }
 
 void require_gap(const Atlas& output, const std::vector<Chart>& stored, const Freedoms& freedom, const Gap& gap,
-                 double box_aspect) {
-  const Vec2 box = any_fixed(freedom) ? Vec2(box_aspect, 1) : box_of_aspect(uv_box(stored), box_aspect).size();
+                 const RefineOptions& options) {
+  const double aspect = options.box_aspect;
+  const Vec2 box = is_in_texture(freedom, options) ? Vec2(aspect, 1) : box_of_aspect(uv_box(stored), aspect).size();
   const double between = gap_between_charts(stored, freedom);
   if (between >= gap.length(box)) return;
   Refusal refuse(output);
   refuse("two charts are " + number_text("%.6g", between / box.norm()) + " of the diagonal apart, nearer than the gap of " +
          number_text("%g", gap.value));
+}
+
+/// The border that the gap keeps free stays so.
+void require_border(const Atlas& output, std::vector<Chart> stored, const Freedoms& freedom, const Vec2& origin,
+                    const RefineOptions& options) {
+  const double border = border_of(options), aspect = options.box_aspect;
+  if (border == 0) return;
+  const Vec2 corner = origin.cwiseProduct(Vec2(aspect, 1));
+  for (Chart& chart : stored) {
+    for (Vec2& uv : chart.uvs) uv -= corner;
+  }
+  // Single precision is coarser far from the first tile.
+  const double rounding = 1e-6 * std::max(0.0, corner.cwiseAbs().maxCoeff() - 8);
+  if (lies_in_texture(stored, freedom, aspect, kBorderSpare + rounding - border)) return;
+  Refusal refuse(output);
+  refuse("a chart is nearer to the border of the texture than the gap");
 }
 
 /// Guards are positive to the end: what is not is a fault of ours, but for those that are thin enough for single precision to
@@ -243,11 +264,12 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
   require_valid(input, output, set, freedom_after, out.stored, cut);
   stretch_to_texture(set.charts, options.box_aspect);
   out.after = measure_split(set, options.box_aspect);
-  measure_in_texture(set.charts, freedom_after, input.origin, options.box_aspect, out.after);
+  measure_in_texture(charts_as_placed(set), freedom_after, input.origin, options, out.after);
   for (std::size_t p = 0; p < out.stored.size(); ++p) out.stored[p].uvs = out.uvs[p];
   require_guards(output, out.stored, options.stored);
   stretch_to_texture(out.stored, options.box_aspect);
-  require_gap(output, out.stored, freedom, gap, options.box_aspect);
+  require_gap(output, out.stored, freedom, gap, options);
+  require_border(output, out.stored, freedom, input.origin, options);
   out.triangulations = count_readings(set.readings);
   if (!divided) out.worse_faces = worse_faces(input.set.readings, set.readings);
   // The same triangles in the same order as the input's: only then can E_2 be told.

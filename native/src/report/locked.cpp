@@ -3,22 +3,11 @@
 
 #include <algorithm>
 
-#include "atlas_refine/error.h"
 #include "report/journal.h"
+#include "report/texture.h"
 
 namespace atlas_refine {
 namespace {
-
-double share_of_texture(const std::vector<Chart>& charts, const Freedoms& freedom, const Vec2& origin, double box_aspect,
-                        bool fixed_only) {
-  const Vec2 sides(box_aspect, 1), corner = origin.cwiseProduct(sides);
-  const Box texture{corner, corner + sides};
-  double area = 0;
-  for (std::size_t c = 0; c < charts.size(); ++c) {
-    if (!fixed_only || is_fixed(freedom, c)) area += area_within(charts[c], texture);
-  }
-  return area / texture.area();
-}
 
 std::string counted(std::ptrdiff_t count, std::size_t all, const char* one, const char* many) {
   if (count == static_cast<std::ptrdiff_t>(all))
@@ -48,33 +37,6 @@ void excuse_fixed(ChartSet& set, const Freedoms& freedom) {
     set.charts[c] = placed[c];
     set.mirrored[c] = false;
   }
-}
-
-void measure_in_texture(const std::vector<Chart>& charts, const Freedoms& freedom, const Vec2& origin, double box_aspect,
-                        Measures& measures) {
-  if (any_fixed(freedom)) measures.pe_fixed_aspect = share_of_texture(charts, freedom, origin, box_aspect, false);
-}
-
-void put_in_texture(InputAtlas& input, const RefineOptions& options) {
-  const Freedoms freedom = freedom_of(input.set, options);
-  if (!any_fixed(freedom)) return;
-  excuse_fixed(input.set, freedom);
-  const Vec2 corner = input.origin.cwiseProduct(Vec2(options.box_aspect, 1));
-  for (std::size_t c = 0; c < freedom.size(); ++c) {
-    const double u = input.set.mirrored[c] ? -corner.x() : corner.x();
-    for (Vec2& uv : input.set.charts[c].uvs) uv -= Vec2(u, corner.y());
-  }
-  measure_in_texture(input.set.charts, freedom, Vec2::Zero(), options.box_aspect, input.measures);
-}
-
-bool lies_in_texture(const std::vector<Chart>& charts, const Freedoms& freedom, double box_aspect) {
-  for (std::size_t c = 0; c < charts.size(); ++c) {
-    if (is_fixed(freedom, c)) continue;
-    for (const Vec2& uv : charts[c].uvs) {
-      if (!(uv.minCoeff() >= 0 && uv.x() <= box_aspect && uv.y() <= 1)) return false;
-    }
-  }
-  return true;
 }
 
 void restore_fixed(const InputAtlas& input, const CutAtlas& atlas, const Freedoms& freedom, std::vector<std::vector<Vec2>>& uvs) {

@@ -20,17 +20,6 @@ Freedoms freedom_of_pieces(const Freedoms& of_charts, const CutAtlas& atlas);
 /// Defects of fixed charts do not count, and those that are mirrored stay so.
 void excuse_fixed(ChartSet& set, const Freedoms& freedom);
 
-/// With fixed charts the box is the whole texture, whose corner is at `origin`: PE is what the charts cover of it. The charts are
-/// in units of the texture.
-void measure_in_texture(const std::vector<Chart>& charts, const Freedoms& freedom, const Vec2& origin, double box_aspect,
-                        Measures& measures);
-
-/// An atlas with fixed charts in the texture's own coordinates, without the defects of these, measured in the texture.
-void put_in_texture(InputAtlas& input, const RefineOptions& options);
-
-/// Every chart that is not fixed lies in the texture, whose corner is at 0.
-bool lies_in_texture(const std::vector<Chart>& charts, const Freedoms& freedom, double box_aspect);
-
 /// Writes the input's UVs of fixed charts over those of the pieces that they are.
 void restore_fixed(const InputAtlas& input, const CutAtlas& atlas, const Freedoms& freedom, std::vector<std::vector<Vec2>>& uvs);
 

@@ -7,6 +7,7 @@
 #include "measure/certificate.h"
 #include "measure/metrics.h"
 #include "report/options.h"
+#include "report/texture.h"
 
 namespace atlas_refine {
 
@@ -23,12 +24,17 @@ double bounding_box_diagonal(const Atlas& atlas) {
 
 }  // namespace
 
-Measures measure(const Atlas& atlas, double box_aspect) {
+Measures measure(const Atlas& atlas, double box_aspect, bool in_texture) {
   check_aspect(box_aspect);
+  if (in_texture && box_aspect == 0) box_aspect = 1;
   const InputAtlas whole = read_atlas(atlas, box_aspect);
   const Participants all = take_part(whole.set, {}, {});
   Measures measures;
-  if (!all.parts.empty()) measures = part_of(whole, all.parts.front().charts, box_aspect).measures;
+  if (!all.parts.empty()) {
+    InputAtlas part = part_of(whole, all.parts.front().charts, box_aspect);
+    put_in_texture(part, {.box_aspect = box_aspect, .in_texture = in_texture});
+    measures = part.measures;
+  }
   measure_seams(atlas, seams_of(whole.set), measures);
   return measures;
 }

@@ -18,6 +18,8 @@ struct Refinement {
   Monitor& monitor;
   Journal& journal;
   int threads;
+  const RefineOptions&
+      asked;  ///< where the box is the texture: as it was asked, while `options` are for the box within its border
 };
 
 struct Solution {

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The objects that an operator works on, and each as a Part of an atlas."""
+
+import bpy
+import numpy as np
+
+from ..core.joined import Part
+from . import mesh as bridge
+from . import named, selection
+
+
+def objects_of(context):
+    """Mesh objects of which each mesh comes once: all in edit mode, else the selected ones, else the active one."""
+    active = context.active_object
+    in_edit_mode = active is not None and active.mode == "EDIT"
+    if in_edit_mode:
+        found = [obj for obj in context.view_layer.objects if obj.mode == "EDIT"]
+    else:
+        found = list(context.selected_objects) or [active]
+    found = [obj for obj in found if obj is not None and obj.type == "MESH"]
+    found.sort(key=lambda obj: obj is not active)
+    return list({obj.data: obj for obj in reversed(found)}.values())[::-1]
+
+
+def why_not(obj):
+    """Why an object's UVs cannot be changed, in words that follow its name; empty where they can."""
+    mesh = obj.data
+    if mesh.library is not None or mesh.override_library is not None:
+        return "the mesh is linked from a library and cannot be changed"
+    if not mesh.uv_layers:
+        return "the mesh has no UV map"
+    if obj.mode != "EDIT" and mesh.is_editmode:
+        return "another object of the same mesh is in edit mode"
+    return ""
+
+
+def users_of(mesh):
+    """How many objects show the mesh."""
+    return sum(obj.data is mesh for obj in bpy.data.objects)
+
+
+def read_part(context, obj, options, material_numbers):
+    """`material_numbers`: a dict that is shared by the parts of an atlas, and grows."""
+    uv_map = bridge.find_uv_map(obj.data, options.uv_map)
+    atlas = bridge.read_atlas(obj, uv_map)
+    hidden, selected, pinned = selection.read_flags(obj, uv_map, selection.by_faces(context))
+    return Part(
+        name=obj.name,
+        uv_map=uv_map,
+        atlas=atlas,
+        triangles=bridge.read_triangles(obj),
+        hidden=hidden,
+        selected=selected,
+        pinned=pinned,
+        materials=_materials(obj, material_numbers),
+        scale=float(abs(obj.matrix_world.determinant()) ** (1 / 3)) or 1.0,
+        keep_shape=named.face_flags(obj, options.keep_shape, atlas) if options.keep_shape else None,
+        importance=named.importance(obj, options.importance, atlas) if options.importance else None,
+        no_seam=named.edges(obj, options.no_seam) if options.no_seam else None,
+        prefer_seam=named.edges(obj, options.prefer_seam) if options.prefer_seam else None,
+    )
+
+
+def _materials(obj, numbers):
+    names = [slot.material.name if slot.material else "" for slot in obj.material_slots] or [""]
+    of_slots = np.array([numbers.setdefault(name, len(numbers)) for name in names])
+    indices = bridge.read_material_indices(obj)
+    return of_slots[np.clip(indices, 0, len(of_slots) - 1)]

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The image that a UV map is for: what the UV editor shows, else what the active material reads."""
+
+from ..core.options import Texture
+
+
+def find_texture(context, obj):
+    """The Texture, or None where no image tells the shape: then it is square."""
+    image = _image_in_editor(context) or _image_of_material(obj)
+    if image is None:
+        return None
+    width, height = image.size
+    tiled = image.source == "TILED"
+    active = image.tiles.active.number if tiled and image.tiles.active else 1001
+    return Texture(image.name, width, height, tiled, active)
+
+
+def _image_in_editor(context):
+    space = context.space_data
+    if space is None or space.type != "IMAGE_EDITOR":
+        return None
+    return space.image if _has_size(space.image) else None
+
+
+def _image_of_material(obj):
+    material = obj.active_material if obj else None
+    if material is None or material.node_tree is None:
+        return None
+    nodes = [node for node in material.node_tree.nodes if node.type == "TEX_IMAGE" and _has_size(node.image)]
+    active = material.node_tree.nodes.active
+    chosen = active if active in nodes else nodes[0] if nodes else None
+    return chosen.image if chosen else None
+
+
+def _has_size(image):
+    """Renders and images whose file is missing have none."""
+    return image is not None and image.type not in {"RENDER_RESULT", "COMPOSITING"} and min(image.size) > 0
+
+
+def active_tile(context, texture):
+    """Lower left corner of the active UDIM tile: the image's, else the one that the UV editor's cursor is in."""
+    if texture is not None and texture.is_tiled:
+        number = texture.active_tile - 1001
+        return number % 10, number // 10
+    space = context.space_data
+    if space is None or space.type != "IMAGE_EDITOR":
+        return 0, 0
+    return tuple(int(value // 1) for value in space.cursor_location)

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One run of the engine: the parts of an atlas, who of them takes part, and the keywords."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .joined import Joined
+from .who import group_faces, groups_without_work, stay
+
+
+class NothingToDoError(Exception):
+    """The message says why."""
+
+
+@dataclass(frozen=True)
+class Request:
+    joined: Joined
+    arguments: dict  # of atlas_refine.start()
+
+    @property
+    def face_count(self):
+        return int(self.joined.first_faces[-1])
+
+    @property
+    def reaches_beyond(self):
+        """Some chart lies beside the one texture that all share."""
+        uvs = self.joined.arrays()[3]
+        return "groups" not in self.arguments and not np.all((uvs >= 0) & (uvs <= 1) | np.isnan(uvs))
+
+    @property
+    def leaves_faces_out(self):
+        return not all(part.taken.all() for part in self.joined.parts)
+
+
+def prepare(engine, parts, options, texture=None, tile=(0, 0), material_names=()):
+    """`engine`: the atlas_refine module; `tile`: the active one. Sets Part.taken. Raises NothingToDoError."""
+    locked = [_choose(engine, part, options) for part in parts]
+    if not any(np.any(part.taken & ~flags) for part, flags in zip(parts, locked, strict=True)):
+        raise NothingToDoError(_why_nothing(parts))
+    of_faces, corners, tile_names = _tiles(engine, parts, options, texture, tile)
+    _require_work(parts, locked, "no chart that may be moved lies in the active tile")
+    by_material = options.atlases == "MATERIAL"
+    materials = np.concatenate([part.materials[part.taken] if by_material else 0 * part.materials[part.taken] for part in parts])
+    codes = np.column_stack([materials, of_faces])
+    groups, first = group_faces(codes)
+    idle = groups_without_work(groups, Joined(parts).of_faces(locked))
+    if idle.any():
+        _leave_out(parts, idle)
+        codes = codes[~idle]
+        groups, first = group_faces(codes)
+    joined = Joined(parts)
+    arguments = {**options.engine_arguments(texture), **_arguments_of(joined, locked)}
+    origins = corners[codes[first, 1]]
+    if len(first) > 1 or np.any(origins):
+        labels = [name or "no material" for name in material_names] if by_material else [""]
+        names = [" ".join(filter(None, (labels[material], tile_names[at]))) for material, at in codes[first]]
+        arguments.update(groups=groups, group_origins=origins, group_names=names)
+    return Request(joined, arguments)
+
+
+def _choose(engine, part, options):
+    """Sets Part.taken and returns the locked faces."""
+    if not part.hidden.any() and part.selected.all() and not part.pinned.any():
+        return np.zeros(len(part.hidden), dtype=bool)
+    groups = part.materials if options.atlases == "MATERIAL" else None
+    charts = engine.charts_of_faces(*part.atlas.as_tuple(), groups=groups, name=part.name)
+    left_out, locked = stay(charts, part.hidden, part.selected, part.pinned)
+    part.taken = ~left_out
+    return locked
+
+
+def _why_nothing(parts):
+    if not any(len(part.hidden) for part in parts):
+        return "the mesh has no faces"
+    if all(part.hidden.all() for part in parts):
+        return "all faces are hidden"
+    if not any(np.any(part.selected & ~part.hidden) for part in parts):
+        return "no chart is selected: select those that are to be refined"
+    return "every chart that is selected is pinned or partly hidden, and stays"
+
+
+def _require_work(parts, locked, why):
+    if not any(np.any(part.taken & ~flags) for part, flags in zip(parts, locked, strict=True)):
+        raise NothingToDoError(why)
+
+
+def _tiles(engine, parts, options, texture, tile):
+    """(tile of each taken face, lower left corners, names); with ACTIVE only its faces are taken from here on."""
+    wanted = options.tiles_of(texture)
+    joined = Joined(parts)
+    if wanted == "ONE":
+        return np.zeros(joined.first_faces[-1], dtype=np.int32), np.zeros((1, 2)), [""]
+    tiles, corners, names = engine.group_by_tile(*joined.arrays())
+    if wanted == "ACTIVE":
+        others = ~np.all(corners[tiles] == tile, axis=1)
+        _leave_out(parts, others)
+        tiles = tiles[~others]
+    return tiles, corners, names
+
+
+def _leave_out(parts, flags):
+    """Takes the flagged ones of the taken faces out."""
+    first = 0
+    for part in parts:
+        taken = np.flatnonzero(part.taken)
+        part.taken[taken[flags[first : first + len(taken)]]] = False
+        first += len(taken)
+
+
+def _arguments_of(joined, locked):
+    parts = joined.parts
+    arguments = {"triangles": joined.triangles(), "no_seam": joined.edges("no_seam"), "prefer_seam": joined.edges("prefer_seam")}
+    if any(flags.any() for flags in locked):
+        arguments["locked"] = joined.of_faces(locked)
+    if any(part.keep_shape is not None for part in parts):
+        none = [np.zeros(len(part.taken), dtype=bool) for part in parts]
+        arguments["keep_shape"] = joined.of_faces([_or(p.keep_shape, n) for p, n in zip(parts, none, strict=True)])
+    if any(part.importance is not None for part in parts):
+        one = [np.ones(len(part.taken)) for part in parts]
+        arguments["importance"] = joined.of_faces([_or(p.importance, o) for p, o in zip(parts, one, strict=True)])
+    return arguments
+
+
+def _or(value, otherwise):
+    return otherwise if value is None else value

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The engine's messages as an artist reads them: counts, not the numbers of charts."""
+
+import re
+
+_CHARTS = re.compile(r"\bcharts (\d+(?:, \d+)*)\b(?: and (\d+)\b)?")
+_CHART = re.compile(r"(?:\bface (\d+) of )?\bchart \d+\b")
+_SYMBOLS = {"packing efficiency": "texture use", "E_d": "distortion"}
+_OBJECT = re.compile(r"^object '.*?': ")
+
+
+def plain(message):
+    """ "charts 3, 5: mirrored" -> "2 charts: mirrored"; "chart 7 has no area" -> "1 chart has no area"."""
+    message = _OBJECT.sub("", message)
+    message = _CHARTS.sub(lambda found: f"{found.group(1).count(',') + 1 + bool(found.group(2))} charts", message)
+    for symbol, word in _SYMBOLS.items():
+        message = message.replace(symbol, word)
+    return _CHART.sub(lambda found: f"face {found.group(1)}" if found.group(1) else "1 chart", message)
+
+
+def counted(count, one, many=None):
+    return f"{count} {one if count == 1 else many or one + 's'}"
+
+
+def phase(stage):
+    """A stage of the engine for the progress bar."""
+    return {
+        "input": "reading",
+        "repair": "mending",
+        "embed": "mending",
+        "align": "straightening",
+        "layout": "planning cuts",
+        "cut": "cutting",
+        "pack": "packing",
+        "squeeze": "bending",
+        "reduce": "relaxing",
+        "certify": "checking",
+        "compare": "comparing",
+    }.get(stage, stage)

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options as a layout, in the panels and in the redo panel alike, what the artist decides first at the top."""
+
+from .bridge import parts as objects
+from .bridge.texture import find_texture
+
+
+def draw_use(layout, holder):
+    layout.prop(holder, "pe_bound", slider=True)
+
+
+def draw_main(layout, holder, context):
+    active = context.active_object
+    layout.prop(holder, "aspect")
+    texture = find_texture(context, active) if holder.aspect == "TEXTURE" else None
+    if holder.aspect == "TEXTURE":
+        text = f"{texture.name}: {texture.width} x {texture.height}" if texture else "No image: square"
+        layout.label(text=text, icon="IMAGE_DATA")
+    layout.prop(holder, "seams")
+    if holder.seams == "RECTANGLES":
+        layout.prop(holder, "cut")
+    layout.prop(holder, "gap")
+    if holder.gap == "PIXELS":
+        layout.prop(holder, "gap_px", text="Pixels")
+        if texture is None:
+            layout.prop(holder, "texture_size")
+    layout.prop(holder, "stacks")
+    layout.prop(holder, "density")
+    if len(objects.objects_of(context)) > 1 or holder.atlases != "ALL" or _has_materials(active):
+        layout.prop(holder, "atlases")
+    if holder.tiles != "TEXTURE" or (texture and texture.is_tiled):
+        layout.prop(holder, "tiles")
+    _draw_uv_map(layout, holder, active)
+    layout.prop(holder, "write_to")
+
+
+def _has_materials(obj):
+    return obj is not None and len(obj.material_slots) > 1
+
+
+def _draw_uv_map(layout, holder, obj):
+    if obj is not None and obj.type == "MESH":
+        layout.prop_search(holder, "uv_map", obj.data, "uv_layers", icon="GROUP_UVS")
+    else:
+        layout.prop(holder, "uv_map")
+
+
+def draw_protected(layout, holder, context):
+    """What is kept as it is: names of vertex groups and attributes."""
+    obj = context.active_object
+    is_mesh = obj is not None and obj.type == "MESH"
+    for name in ("keep_shape", "importance"):
+        if is_mesh and obj.vertex_groups:
+            layout.prop_search(holder, name, obj, "vertex_groups")
+        else:
+            layout.prop(holder, name)
+    for name in ("no_seam", "prefer_seam"):
+        if is_mesh:
+            layout.prop_search(holder, name, obj.data, "attributes", icon="EDGESEL")
+        else:
+            layout.prop(holder, name)
+    layout.prop(holder, "mark_seams")
+
+
+def draw_advanced(layout, holder):
+    for name in ("relax", "max_distortion", "open_closed", "best_effort"):
+        layout.prop(holder, name)
+    if holder.tiles == "TEXTURE":
+        layout.prop(holder, "tiles")
+    if holder.seams == "RECTANGLES":
+        layout.prop(holder, "sigma")
+        layout.prop(holder, "candidates")
+    layout.prop(holder, "seed")
+    layout.prop(holder, "threads")
+
+
+def redraw_panels(context):
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type in {"IMAGE_EDITOR", "VIEW_3D"}:
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()

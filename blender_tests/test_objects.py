@@ -1,0 +1,429 @@
+"""Several objects, shared and linked meshes, materials, UDIM tiles, a copy of the map, vertex groups and attributes."""
+
+import pathlib
+import unittest
+
+import bmesh
+import bpy
+import numpy as np
+import shapes
+from support import add_mesh, changes, fresh_scene, get_uvs, messages, set_uvs, snapshot, texture_share
+
+
+def uvs_of(obj):
+    return get_uvs(obj.data.uv_layers.active)
+
+
+def add_two():
+    """Both selected, the second active."""
+    first, second = add_mesh(name="First"), add_mesh(shapes.arcs(2, 30), name="Second")
+    first.select_set(True)
+    return first, second
+
+
+def box_share(objs):
+    """Of the texture's square that the faces of all of them cover."""
+    area = 0.0
+    for obj in objs:
+        uvs = uvs_of(obj).astype(np.float64)
+        assert np.all((uvs >= 0) & (uvs <= 1)), (uvs.min(), uvs.max())
+        for polygon in obj.data.polygons:
+            u, v = uvs[list(polygon.loop_indices)].T
+            area += 0.5 * np.sum(u * np.roll(v, -1) - np.roll(u, -1) * v)
+    return area
+
+
+class Objects(unittest.TestCase):
+    def setUp(self):
+        fresh_scene()
+
+    def test_selected_objects_share_one_atlas(self):
+        objs = add_two()
+        before = [snapshot(obj, but_uvs_of="UVMap") for obj in objs]
+        self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
+        self.assertGreaterEqual(box_share(objs), 0.8)
+        for obj, held in zip(objs, before, strict=True):
+            self.assertEqual(changes(held, snapshot(obj, but_uvs_of="UVMap")), [])
+
+    def test_or_have_one_each(self):
+        objs = add_two()
+        self.assertEqual(bpy.ops.uv.atlas_refine(atlases="OBJECT"), {"FINISHED"})
+        for obj in objs:
+            self.assertGreaterEqual(texture_share(obj), 0.8)
+
+    def test_or_one_for_each_material(self):
+        objs = add_two()
+        skin, cloth = bpy.data.materials.new("Skin"), bpy.data.materials.new("Cloth")
+        for obj in objs:
+            obj.data.materials.append(skin)
+            obj.data.materials.append(cloth)
+        for polygon in objs[0].data.polygons:
+            polygon.material_index = polygon.index >= 48
+        self.assertEqual(bpy.ops.uv.atlas_refine(atlases="MATERIAL"), {"FINISHED"})
+        self.assertGreaterEqual(box_share(objs), 1.6)
+
+    def test_several_objects_in_edit_mode(self):
+        objs = add_two()
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.uv.select_all(action="SELECT")
+        self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
+        self.assertEqual([obj.mode for obj in objs], ["EDIT", "EDIT"])
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertGreaterEqual(box_share(objs), 0.8)
+
+    def test_cuts_of_several_objects(self):
+        for cut in ("EDGES", "SPLIT"):
+            fresh_scene()
+            objs = add_two()
+            faces = [len(obj.data.polygons) for obj in objs]
+            self.assertEqual(bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut=cut), {"FINISHED"})
+            self.assertGreaterEqual(box_share(objs), 0.8)
+            now = [len(obj.data.polygons) for obj in objs]
+            self.assertEqual(now == faces, cut == "EDGES")
+            for obj in objs:
+                self.assertFalse(obj.data.validate())
+                self.assertTrue(any(edge.use_seam for edge in obj.data.edges))
+
+    def test_a_shared_mesh_is_written_once_and_that_is_told(self):
+        obj = add_mesh()
+        twin = bpy.data.objects.new("Twin", obj.data)
+        bpy.context.collection.objects.link(twin)
+        twin.select_set(True)
+        told = messages(bpy.ops.uv.atlas_refine)
+        self.assertIn("2 objects share the mesh", told)
+        self.assertEqual(told.count("Texture use"), 1)
+        self.assertGreaterEqual(texture_share(twin), 0.8)
+
+    def test_a_shared_mesh_in_edit_mode_elsewhere_is_refused(self):
+        obj = add_mesh()
+        twin = bpy.data.objects.new("Twin", obj.data)
+        bpy.context.collection.objects.link(twin)
+        bpy.ops.object.mode_set(mode="EDIT")
+        obj.select_set(False)
+        twin.select_set(True)
+        bpy.context.view_layer.objects.active = twin
+        self.assertFalse(bpy.ops.uv.atlas_refine.poll())
+        with self.assertRaisesRegex(RuntimeError, "Twin: another object of the same mesh is in edit mode"):
+            bpy.ops.uv.atlas_refine()
+
+    def test_linked_meshes_are_refused_with_a_word(self):
+        add_mesh(name="Linked")
+        path = str(pathlib.Path(bpy.app.tempdir) / "library.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        fresh_scene()
+        with bpy.data.libraries.load(path, link=True) as (_, there):
+            there.objects = ["Linked"]
+        obj = there.objects[0]
+        bpy.context.collection.objects.link(obj)
+        obj.select_set(True)
+        bpy.context.view_layer.objects.active = obj
+        with self.assertRaisesRegex(RuntimeError, "Linked: the mesh is linked from a library"):
+            bpy.ops.uv.atlas_refine()
+        # Beside an object of this file that one is refined all the same.
+        own = add_mesh(name="Own")
+        obj.select_set(True)
+        told = messages(bpy.ops.uv.atlas_refine)
+        self.assertIn("Linked: the mesh is linked from a library", told)
+        self.assertGreaterEqual(texture_share(own), 0.8)
+
+    def test_a_failure_of_one_names_it_and_leaves_the_other_done(self):
+        first, second = add_two()
+        second.data.uv_layers.remove(second.data.uv_layers.active)
+        told = messages(bpy.ops.uv.atlas_refine, atlases="OBJECT")
+        self.assertIn("Second: the mesh has no UV map", told)
+        self.assertGreaterEqual(texture_share(first), 0.8)
+
+    def test_other_types_of_objects_do_not_disturb(self):
+        obj = add_mesh()
+        light = bpy.data.objects.new("Light", bpy.data.lights.new("Light", "POINT"))
+        bpy.context.collection.objects.link(light)
+        light.select_set(True)
+        bpy.context.view_layer.objects.active = light
+        self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
+        self.assertGreaterEqual(texture_share(obj), 0.8)
+
+
+class Tiles(unittest.TestCase):
+    def setUp(self):
+        fresh_scene()
+        charts = [
+            shapes.grid(6, 3, scale=0.1, origin=(0.1, 0.1), bend=1.2),
+            shapes.grid(4, 4, scale=0.1, origin=(1.3, 0.2), bend=0.7),
+        ]
+        self.obj = add_mesh(shapes.join(*charts))
+        self.before = uvs_of(self.obj)
+
+    def tiled_image(self, active):
+        image = bpy.data.images.new("Skin", 256, 256, tiled=True)
+        image.tiles.new(1002)
+        image.tiles.active_index = active
+        material = bpy.data.materials.new("Skin")
+        material.use_nodes = True
+        material.node_tree.nodes.new("ShaderNodeTexImage").image = image
+        self.obj.data.materials.append(material)
+
+    def assert_within(self, uvs, corner):
+        """Of the tile's lower left corner; the margin keeps off its border."""
+        self.assertTrue(np.all((uvs > corner) & (uvs < np.add(corner, 1))))
+
+    def test_with_a_tiled_image_charts_stay_in_their_tiles(self):
+        self.tiled_image(0)
+        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7), {"FINISHED"})
+        uvs = uvs_of(self.obj)
+        self.assert_within(uvs[:72], (0, 0))
+        self.assert_within(uvs[72:], (1, 0))
+
+    def test_or_only_the_active_one_changes(self):
+        self.tiled_image(1)
+        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7, tiles="ACTIVE"), {"FINISHED"})
+        uvs = uvs_of(self.obj)
+        self.assertEqual(uvs[:72].tobytes(), self.before[:72].tobytes())
+        self.assert_within(uvs[72:], (1, 0))
+
+    def test_without_one_all_go_to_the_first(self):
+        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7), {"FINISHED"})
+        self.assertLess(uvs_of(self.obj).max(), 1)
+
+    def test_unless_each_is_to_keep_its_own(self):
+        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7, tiles="EACH"), {"FINISHED"})
+        self.assertGreater(uvs_of(self.obj)[72:, 0].min(), 1)
+
+
+class Names(unittest.TestCase):
+    """What is told by a name: maps, groups, attributes."""
+
+    def setUp(self):
+        fresh_scene()
+        self.obj = add_mesh()
+
+    def test_a_copy_of_the_map(self):
+        for mode in ("OBJECT", "EDIT"):
+            obj = add_mesh(name=mode)
+            before = get_uvs(obj.data.uv_layers["UVMap"]).tobytes()
+            bpy.ops.object.mode_set(mode=mode)
+            if mode == "EDIT":
+                bpy.ops.mesh.select_all(action="SELECT")
+                bpy.ops.uv.select_all(action="SELECT")
+            self.assertEqual(bpy.ops.uv.atlas_refine(write_to="COPY"), {"FINISHED"})
+            bpy.ops.object.mode_set(mode="OBJECT")
+            self.assertEqual(get_uvs(obj.data.uv_layers["UVMap"]).tobytes(), before)
+            self.assertEqual(obj.data.uv_layers.active.name, "UVMap refined")
+            self.assertGreaterEqual(texture_share(obj), 0.8)
+
+    def test_a_copy_of_a_map_that_is_cut(self):
+        self.assertEqual(bpy.ops.uv.atlas_refine(write_to="COPY", seams="RECTANGLES", cut="SPLIT"), {"FINISHED"})
+        self.assertEqual([layer.name for layer in self.obj.data.uv_layers], ["UVMap", "UVMap refined"])
+        self.assertGreaterEqual(texture_share(self.obj), 0.8)
+
+    def test_no_room_for_a_copy_leaves_the_mesh_alone(self):
+        for k in range(7):
+            self.obj.data.uv_layers.new(name=str(k))
+        before = snapshot(self.obj)
+        with self.assertRaisesRegex(RuntimeError, "Loose: the mesh has no room for another UV map"):
+            bpy.ops.uv.atlas_refine(write_to="COPY", uv_map="UVMap")
+        self.assertEqual(changes(before, snapshot(self.obj)), [])
+
+    def test_shapes_are_kept_by_a_vertex_group_and_by_a_face_attribute(self):
+        group = self.obj.vertex_groups.new(name="Rigid")
+        group.add(list(self.obj.data.polygons[60].vertices), 1.0, "REPLACE")
+        part = self.obj.data.attributes.new("Part", "INT", "FACE")
+        part.data[60].value = 1
+        before = get_uvs(self.obj.data.uv_layers.active)
+        for name in ("Rigid", "Part"):
+            for mode in ("OBJECT", "EDIT"):
+                set_uvs(self.obj.data.uv_layers.active, before)
+                bpy.ops.object.mode_set(mode=mode)
+                if mode == "EDIT":
+                    bpy.ops.mesh.select_all(action="SELECT")
+                    bpy.ops.uv.select_all(action="SELECT")
+                self.assertEqual(bpy.ops.uv.atlas_refine(keep_shape=name, density="EQUAL"), {"FINISHED"})
+                bpy.ops.object.mode_set(mode="OBJECT")
+                after = get_uvs(self.obj.data.uv_layers.active)
+                kept = slice(4 * 48, 4 * 84)
+                self.assertLess(self.bending(before[kept], after[kept]), 1e-4)
+                self.assertGreater(self.bending(before[:192], after[:192]), 1e-3)
+
+    @staticmethod
+    def bending(before, after):
+        """How far lengths of edges differ from one factor."""
+        lengths = [np.linalg.norm(uvs[1::4] - uvs[::4], axis=1) for uvs in (before, after)]
+        factors = lengths[1] / lengths[0]
+        return np.ptp(factors) / factors.mean()
+
+    def test_edges_of_an_attribute_are_no_seams(self):
+        mesh = self.obj.data
+        for mode in ("OBJECT", "EDIT"):
+            marked = mesh.attributes.new(f"Whole{mode}", "INT", "EDGE")
+            bpy.ops.uv.atlas_refine(seams="RECTANGLES", density="EQUAL")
+            cut = [edge.index for edge in mesh.edges if edge.use_seam]
+            self.assertTrue(cut)
+            marked = mesh.attributes[f"Whole{mode}"]
+            for index in cut:
+                marked.data[index].value = 1
+            fresh = add_mesh(name=mode)
+            fresh.data.attributes.new("Whole", "INT", "EDGE")
+            for index in cut:
+                fresh.data.attributes["Whole"].data[index].value = 1
+            bpy.ops.object.mode_set(mode=mode)
+            if mode == "EDIT":
+                bpy.ops.mesh.select_all(action="SELECT")
+                bpy.ops.uv.select_all(action="SELECT")
+            bpy.ops.uv.atlas_refine(seams="RECTANGLES", density="EQUAL", no_seam="Whole", best_effort=True)
+            bpy.ops.object.mode_set(mode="OBJECT")
+            self.assertFalse([index for index in cut if fresh.data.edges[index].use_seam])
+
+    def test_seams_are_marked_or_not(self):
+        bpy.ops.uv.atlas_refine(seams="RECTANGLES", mark_seams=False)
+        self.assertFalse(any(edge.use_seam for edge in self.obj.data.edges))
+
+    def test_a_name_that_nothing_has_is_refused(self):
+        before = snapshot(self.obj)
+        for option in ("keep_shape", "importance", "no_seam", "prefer_seam"):
+            with self.assertRaisesRegex(RuntimeError, 'there is no .* "Nothing"'):
+                bpy.ops.uv.atlas_refine(**{option: "Nothing"})
+        self.assertEqual(changes(before, snapshot(self.obj)), [])
+
+    def test_importance_from_a_vertex_group(self):
+        group = self.obj.vertex_groups.new(name="Face")
+        group.add(list(range(10)), 1.0, "REPLACE")
+        self.assertEqual(bpy.ops.uv.atlas_refine(importance="Face"), {"FINISHED"})
+        plain = add_mesh(name="Plain")
+        bpy.ops.uv.atlas_refine()
+        self.assertNotEqual(uvs_of(self.obj).tobytes(), uvs_of(plain).tobytes())
+
+
+class Broken(unittest.TestCase):
+    """One bad chart never refuses the mesh, and Select Problems finds it."""
+
+    def setUp(self):
+        fresh_scene()
+        self.obj = add_mesh()
+
+    @property
+    def layer(self):
+        return self.obj.data.uv_layers.active
+
+    def selected(self):
+        bpy.ops.object.mode_set(mode="OBJECT")
+        return [polygon.index for polygon in self.obj.data.polygons if polygon.select]
+
+    def change(self, function, faces):
+        uvs = get_uvs(self.layer)
+        corners = slice(4 * faces.start, 4 * faces.stop)
+        uvs[corners] = function(uvs[corners])
+        set_uvs(self.layer, uvs)
+
+    def test_a_chart_without_area_is_left_and_counted(self):
+        self.change(lambda uvs: 0 * uvs + 0.5, range(84, 102))
+        told = messages(bpy.ops.uv.atlas_refine)
+        self.assertIn("Loose: 1 chart: has no area in the UV map", told)
+        self.assertNotIn("chart 2", told)
+        self.assertEqual(bpy.ops.uv.atlas_refine_select_problems(), {"FINISHED"})
+        self.assertEqual(self.selected(), list(range(84, 102)))
+
+    def test_a_flipped_chart_is_mended_and_told(self):
+        self.change(lambda uvs: uvs * [-1, 1], range(48))
+        told = messages(bpy.ops.uv.atlas_refine)
+        self.assertIn("Loose: 1 chart: mirrored, turned over", told)
+        self.assertGreaterEqual(texture_share(self.obj), 0.8)
+
+    def test_each_kind_is_found(self):
+        self.change(lambda uvs: uvs * [-1, 1], range(48))
+        bpy.ops.uv.atlas_refine_select_problems(kinds={"MIRRORED"})
+        self.assertEqual(self.selected(), list(range(48)))
+        bpy.ops.uv.atlas_refine_select_problems()
+        self.assertEqual(self.selected(), [])
+        uvs = get_uvs(self.layer)
+        uvs[4 * 84 :] = uvs[4 * 84 :] * 0.01 + uvs[4 * 48 : 4 * 49].mean(axis=0) - 0.01 * uvs[4 * 84 :].mean(axis=0)
+        set_uvs(self.layer, uvs)
+        bpy.ops.uv.atlas_refine_select_problems(kinds={"OVERLAPPING"})
+        self.assertEqual(self.selected(), [48, *range(84, 102)])
+
+    def test_charts_that_the_last_run_left_are_found_while_that_is_true(self):
+        self.change(lambda uvs: 0 * uvs + 0.5, range(84, 102))
+        bpy.ops.uv.atlas_refine()
+        bpy.ops.uv.atlas_refine_select_problems(kinds={"LEFT"})
+        self.assertEqual(self.selected(), list(range(84, 102)))
+        self.change(lambda uvs: 0.5 * uvs, range(48))
+        self.obj.data.update()
+        bpy.context.view_layer.update()
+        bpy.ops.uv.atlas_refine_select_problems(kinds={"LEFT"})
+        self.assertEqual(self.selected(), [])
+
+    def test_non_manifold_faces_are_found(self):
+        bpy.ops.mesh.primitive_plane_add()
+        self.obj = bpy.context.object
+        mesh = bmesh.new()
+        mesh.from_mesh(self.obj.data)
+        verts = list(mesh.verts)
+        edge = mesh.edges.get((verts[0], verts[1])) or mesh.edges[0]
+        for z in (1.0, -1.0):
+            top = mesh.verts.new((0.0, -2.0, z))
+            mesh.faces.new((*edge.verts, top))
+        mesh.to_mesh(self.obj.data)
+        mesh.free()
+        told = messages(bpy.ops.uv.atlas_refine_select_problems, kinds={"NON_MANIFOLD"})
+        self.assertIn("3 non-manifold faces", told)
+        self.assertEqual(self.selected(), [0, 1, 2])
+
+    def test_the_counts_are_told(self):
+        self.change(lambda uvs: 0 * uvs + 0.5, range(84, 102))
+        told = messages(bpy.ops.uv.atlas_refine_select_problems)
+        self.assertIn("Loose: 18 not unwrapped faces", told)
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertIn("no problems", messages(self.on_a_clean_mesh))
+
+    def on_a_clean_mesh(self):
+        add_mesh(name="Clean")
+        return bpy.ops.uv.atlas_refine_select_problems()
+
+
+class LastResult(unittest.TestCase):
+    """What the panel shows is cleared when it is no longer true."""
+
+    def setUp(self):
+        fresh_scene()
+        self.obj = add_mesh()
+
+    @staticmethod
+    def shown():
+        import sys
+
+        from support import MODULE
+
+        bpy.context.view_layer.update()
+        return sys.modules[f"{MODULE}.tasks"].last_if_true()
+
+    def test_it_stays_while_nothing_changes(self):
+        bpy.ops.uv.atlas_refine()
+        self.assertEqual(self.shown()[0].title, "Loose")
+        self.obj.location.x += 1
+        bpy.ops.object.mode_set(mode="EDIT")
+        self.assertIsNotNone(self.shown())
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertIsNotNone(self.shown())
+
+    def test_it_goes_with_the_uvs_the_mesh_the_object_and_the_file(self):
+        def move_a_uv():
+            set_uvs(self.obj.data.uv_layers.active, get_uvs(self.obj.data.uv_layers.active) * 0.5)
+            self.obj.data.update()
+
+        def move_a_vertex():
+            self.obj.data.vertices[0].co.x += 1
+            self.obj.data.update()
+
+        for change in (move_a_uv, move_a_vertex, lambda: bpy.data.objects.remove(self.obj), fresh_scene):
+            self.obj = add_mesh()
+            bpy.ops.uv.atlas_refine()
+            self.assertIsNotNone(self.shown())
+            change()
+            self.assertIsNone(self.shown())
+
+    def test_measure_shows_figures_and_changes_nothing(self):
+        before = snapshot(self.obj)
+        told = messages(bpy.ops.uv.atlas_refine_measure)
+        self.assertIn("Info: Loose: Texture use 95 % (reaching beyond it), distortion high", told)
+        self.assertIn("3 charts", told)
+        self.assertEqual(changes(before, snapshot(self.obj)), [])
+        self.assertIsNotNone(self.shown()[0].measures)

@@ -1,0 +1,37 @@
+// What is different where the box is the texture: PE is what is covered of it, and the gap keeps a border free.
+#pragma once
+
+#include "atlas_refine/options.h"
+#include "geometry/freedom.h"
+#include "report/measure_atlas.h"
+
+namespace atlas_refine {
+
+/// What the charts, or the fixed ones of them alone, cover of the texture whose corner is at `origin`.
+double share_of_texture(const std::vector<Chart>& charts, const Freedoms& freedom, const Vec2& origin, double box_aspect,
+                        bool fixed_only);
+
+/// The box is the texture: with fixed charts, and where that is asked.
+bool is_in_texture(const Freedoms& freedom, const RefineOptions& options);
+
+/// What is kept free along the texture's border, in units of its height: the gap, where one is given, and a little for rounding.
+double border_of(const RefineOptions& options);
+inline constexpr double kBorderSpare = 1e-6;
+
+/// The same options for the box within that border: its aspect, and bound and gap as fractions of it. Throws
+/// RefineError(BoundNotReached) where it cannot hold the bound and no best effort is asked for.
+RefineOptions within_border(RefineOptions options);
+
+/// Where the box is the texture, whose corner is at `origin`, PE is what the charts cover of it. The charts are in units of the
+/// texture, where the UVs lie.
+void measure_in_texture(const std::vector<Chart>& placed, const Freedoms& freedom, const Vec2& origin,
+                        const RefineOptions& options, Measures& measures);
+
+/// An atlas whose box is the texture in the coordinates of the box within its border, whose height is 1, without the defects of
+/// fixed charts, measured in the texture.
+void put_in_texture(InputAtlas& input, const RefineOptions& options);
+
+/// Every chart that is not fixed lies in the texture, whose corner is at 0, or less than `slack` outside of it.
+bool lies_in_texture(const std::vector<Chart>& charts, const Freedoms& freedom, double box_aspect, double slack = 0);
+
+}  // namespace atlas_refine

@@ -1,0 +1,171 @@
+"""addon/core: who takes part, several meshes as one, and the engine's result dealt out again, without Blender."""
+
+import pathlib
+import sys
+
+import atlas_refine
+import numpy as np
+import pytest
+import shapes
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "addon"))
+
+from core.atlas import AtlasArrays, stored_uvs
+from core.cuts import plan_cut
+from core.joined import Part
+from core.options import Options
+from core.request import NothingToDoError, prepare
+
+FREE = Options(aspect="FREE", gap="AUTO")
+
+
+def make_part(arrays=None, name="Part", **flags):
+    positions, offsets, corners, uvs = shapes.loose() if arrays is None else arrays
+    atlas = AtlasArrays(positions.astype(np.float32), offsets.astype(np.int32), corners.astype(np.int32), uvs.astype(np.float32))
+    faces = len(offsets) - 1
+    given = {
+        "triangles": np.zeros((0, 3), dtype=np.int32),
+        "hidden": np.zeros(faces, dtype=bool),
+        "selected": np.ones(faces, dtype=bool),
+        "pinned": np.zeros(faces, dtype=bool),
+        "materials": np.zeros(faces, dtype=int),
+    }
+    return Part(name, "UVMap", atlas, **{**given, **flags})
+
+
+def faces(part, begin, end):
+    flags = np.zeros(len(part.taken), dtype=bool)
+    flags[begin:end] = True
+    return flags
+
+
+#: Of shapes.loose(): 12 x 4, 6 x 6 and 9 x 2 quads.
+FIRST, SECOND, THIRD = (0, 48), (48, 84), (84, 102)
+
+
+def run(request):
+    return atlas_refine.refine(*request.joined.arrays(), **request.arguments)
+
+
+def test_all_of_one_mesh_is_given_as_it_is():
+    part = make_part()
+    request = prepare(atlas_refine, [part], FREE)
+    for given, own in zip(request.joined.arrays(), part.atlas.as_tuple(), strict=True):
+        assert np.array_equal(given, own)
+    assert "locked" not in request.arguments
+    assert "groups" not in request.arguments
+
+
+def test_hidden_charts_are_left_out_and_keep_their_uvs():
+    part = make_part()
+    part.hidden = faces(part, *SECOND)
+    request = prepare(atlas_refine, [part], FREE)
+    assert request.face_count == 102 - 36
+    uvs = request.joined.uvs_of(0, stored_uvs(run(request).corner_uvs))
+    assert np.array_equal(uvs[4 * 48 : 4 * 84], part.atlas.corner_uvs[4 * 48 : 4 * 84])
+    assert not np.array_equal(uvs[: 4 * 48], part.atlas.corner_uvs[: 4 * 48])
+
+
+def test_one_pinned_one_hidden_and_one_unselected_face_lock_the_whole_chart():
+    for flag, value in (("pinned", True), ("hidden", True)):
+        part = make_part()
+        getattr(part, flag)[50] = value
+        request = prepare(atlas_refine, [part], FREE)
+        assert np.array_equal(np.flatnonzero(request.arguments["locked"]), np.arange(*SECOND))
+    part = make_part()
+    part.selected = faces(part, 0, 1) | faces(part, 84, 85)
+    request = prepare(atlas_refine, [part], FREE)
+    assert np.array_equal(np.flatnonzero(request.arguments["locked"]), np.arange(*SECOND))
+
+
+def test_nothing_to_do_says_why():
+    for flag, value, words in (
+        ("selected", False, "no chart is selected"),
+        ("hidden", True, "hidden"),
+        ("pinned", True, "pinned"),
+    ):
+        part = make_part()
+        getattr(part, flag)[:] = value
+        with pytest.raises(NothingToDoError, match=words):
+            prepare(atlas_refine, [part], FREE)
+
+
+def test_two_meshes_at_one_place_are_one_atlas_and_not_sewn_together():
+    parts = [make_part(name="A"), make_part(name="B")]
+    request = prepare(atlas_refine, parts, Options(gap="AUTO", stacks="SEPARATE"))
+    result = run(request)
+    assert result.after.chart_count == 6
+    assert result.after.pe_fixed_aspect >= 0.8
+    uvs = stored_uvs(result.corner_uvs)
+    mine = [request.joined.uvs_of(k, uvs) for k in range(2)]
+    assert mine[0].shape == parts[0].atlas.corner_uvs.shape
+    assert not np.array_equal(mine[0], mine[1])
+
+
+def test_larger_objects_get_more_of_one_atlas():
+    parts = [make_part(shapes.tight(), name="Small"), make_part(shapes.tight(), name="Large", scale=2.0)]
+    request = prepare(atlas_refine, parts, Options(gap="AUTO", density="EQUAL", stacks="SEPARATE", pe_bound=0.6))
+    uvs = stored_uvs(run(request).corner_uvs)
+    small, large = (np.ptp(request.joined.uvs_of(k, uvs), axis=0).prod() for k in range(2))
+    assert large / small == pytest.approx(4.0, rel=0.3)
+
+
+def test_groups_by_material_across_meshes():
+    parts = [make_part(name="A"), make_part(name="B")]
+    parts[0].materials[48:] = 1
+    parts[1].materials[:] = 1
+    request = prepare(atlas_refine, parts, Options(gap="AUTO", atlases="MATERIAL"), material_names=["Skin", "Cloth"])
+    assert request.arguments["group_names"] == ["Skin", "Cloth"]
+    assert np.array_equal(np.bincount(request.arguments["groups"]), [48, 54 + 102])
+
+
+def test_tiles_each_by_itself_or_only_the_active_one():
+    tiles = [shapes.grid(4, 4, scale=0.1, bend=0.7), shapes.grid(6, 3, scale=0.1, origin=(1.1, 0.1), bend=1.2)]
+    parts = [make_part(shapes.join(*tiles))]
+    request = prepare(atlas_refine, parts, Options(gap="AUTO", tiles="EACH"))
+    assert request.arguments["group_names"] == ["1001", "1002"]
+    assert np.array_equal(request.arguments["group_origins"], [[0, 0], [1, 0]])
+    uvs = run(request).corner_uvs
+    assert uvs[:64].max() <= 1.0
+    assert uvs[64:, 0].min() >= 1.0
+    parts = [make_part(shapes.join(*tiles))]
+    request = prepare(atlas_refine, parts, Options(gap="AUTO", tiles="ACTIVE"), tile=(1, 0))
+    assert request.face_count == 18
+    assert run(request).corner_uvs[:, 0].min() >= 1.0
+    with pytest.raises(NothingToDoError, match="active tile"):
+        prepare(atlas_refine, [make_part(shapes.join(*tiles))], Options(tiles="ACTIVE"), tile=(5, 0))
+
+
+def test_a_group_that_is_locked_as_a_whole_is_left_out():
+    part = make_part()
+    part.materials[48:] = 1
+    part.pinned = faces(part, *FIRST)
+    request = prepare(atlas_refine, [part], Options(gap="AUTO", atlases="MATERIAL"), material_names=["Skin", "Cloth"])
+    assert request.face_count == 54
+    assert "locked" in request.arguments
+
+
+def test_a_cut_of_several_meshes_is_dealt_out_to_each():
+    parts = [make_part(name="A"), make_part(name="B")]
+    options = Options(aspect="FREE", gap="AUTO", seams="RECTANGLES", cut="SPLIT", density="EQUAL", stacks="SEPARATE")
+    request = prepare(atlas_refine, parts, options)
+    result = run(request)
+    assert result.cut is not None
+    plans = [
+        plan_cut(part.atlas, *request.joined.cut_of(k, result.cut, stored_uvs(result.corner_uvs))) for k, part in enumerate(parts)
+    ]
+    assert sum(len(plan.face_sources) for plan in plans) == len(result.cut.face_sources)
+    assert all(len(plan.new_seams) for plan in plans)
+
+
+def test_protected_faces_and_edges_go_to_the_engine():
+    parts = [make_part(name="A"), make_part(name="B")]
+    parts[1].keep_shape = faces(parts[1], *THIRD)
+    parts[0].importance = np.full(102, 3.0)
+    parts[1].no_seam = np.array([[0, 1]])
+    request = prepare(atlas_refine, parts, Options(aspect="FREE", gap="AUTO", stacks="SEPARATE"))
+    assert np.array_equal(np.flatnonzero(request.arguments["keep_shape"]), 102 + np.arange(*THIRD))
+    assert np.array_equal(np.unique(request.arguments["importance"]), [1.0, 3.0])
+    first = len(parts[0].atlas.positions)
+    assert request.arguments["no_seam"].tolist() == [[first, first + 1]]
+    assert run(request).charts[5].fate == "kept"
