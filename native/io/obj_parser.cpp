@@ -171,6 +171,7 @@ void ObjParser::read_label(std::string_view keyword) {
 
 void ObjParser::read_position(std::size_t record_begin) {
   ObjText::PositionRecord record;
+  const int line = scanner_.line();
   record.first_extra = static_cast<int>(obj_.extras.size());
   const double x = finite_number("vertex position");
   const double y = finite_number("vertex position");
@@ -181,6 +182,7 @@ void ObjParser::read_position(std::size_t record_begin) {
   scanner_.skip_logical_line();
   record.extra_count = static_cast<int>(obj_.extras.size()) - record.first_extra;
   if (record.extra_count == 1 && obj_.extras.back() != 0) obj_.atlas.positions.back() /= obj_.extras.back();
+  if (!obj_.atlas.positions.back().allFinite()) scanner_.fail_at(line, "a vertex position that its w makes infinite");
   record.whole = {record_begin, scanner_.record_end()};
   obj_.position_records.push_back(record);
 }

@@ -191,6 +191,17 @@ TEST(ObjFile, HomogeneousPositionsAreDividedByW) {
   EXPECT_EQ(file.atlas().positions, (std::vector<Vec3>{{1, 2, 3}, {1, 0, 0}, {0, 1, 0}, {1, 2, 3}}));
 }
 
+TEST(ObjFile, AWThatMakesAPositionInfiniteIsRefusedByItsLine) {
+  for (const std::string w : {"nan", "-nan", "1e-320"}) {
+    try {
+      ObjFile::parse("v 0 0 0\nv 1 0 0 " + w + "\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+      FAIL() << w;
+    } catch (const RefineError& error) {
+      EXPECT_EQ(std::string(error.what()), "line 2: a vertex position that its w makes infinite") << w;
+    }
+  }
+}
+
 TEST(ObjFile, ACornerNamedTwiceMayComeFromARecordThatFollows) {
   const std::string text =
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"

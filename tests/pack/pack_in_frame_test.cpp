@@ -83,6 +83,26 @@ TEST(PackInFrameOnly, NothingFitsWhereNothingIsFree) {
   EXPECT_FALSE(pack_in_frame(shapes_to_place(), {rectangle(1, 1, {0, 0})}, {.frame = {1, 1}, .margin = 0.001, .gap = 0.002}));
 }
 
+TEST(PackInFrameOnly, AnObstacleFarLargerThanTheFrameTakesWhatItCovers) {
+  const FrameOptions options{.frame = {1, 1}, .margin = 0.001, .gap = 0.002};
+  const Outline half{{{{-1e9, -1e9}, {0.5, -1e9}, {0.5, 1e9}, {-1e9, 1e9}}}};
+  const auto packing = pack_in_frame(shapes_to_place(), {half}, options);
+  ASSERT_TRUE(packing);
+  for (const Outline& outline : in_frame(shapes_to_place(), *packing)) {
+    for (const Vec2& p : outline.loops.front()) EXPECT_GE(p.x(), 0.502);
+  }
+  EXPECT_FALSE(pack_in_frame(shapes_to_place(), {scaled(half, 1e18)}, options)) << "round-off alone is larger than the frame";
+}
+
+TEST(PackInFrameOnly, ANeedleFarLongerThanTheFrameIsShrunkToIt) {
+  const FrameOptions options{.frame = {1, 1}, .margin = 0.001, .gap = 0.002, .enough = 1e7};
+  const std::vector<Outline> needle = {rectangle(1, 1e-9, {0, 0})};
+  const auto packing = pack_in_frame(needle, {rectangle(0.5, 0.5, {0.2, 0.2})}, options);
+  ASSERT_TRUE(packing);
+  EXPECT_GT(packing->scale, 0.9);
+  expect_apart(in_frame(needle, *packing), {rectangle(0.5, 0.5, {0.2, 0.2})}, options);
+}
+
 TEST(PackInFrameOnly, StopsAtWhatIsEnough) {
   const auto packing = pack_in_frame(shapes_to_place(), {}, {.frame = {1, 1}, .margin = 0.001, .gap = 0.002, .enough = 0.1});
   ASSERT_TRUE(packing);

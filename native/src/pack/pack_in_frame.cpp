@@ -19,15 +19,9 @@ constexpr int kBisections = 3;        // between the last that failed and the fi
 constexpr double kLeastShare = 1e-4;  // of the frame's area, that charts cover at the least scale
 constexpr int kManyCharts = 200;      // beyond so many one class of turns is tried
 
-/// The frame in cells. Cell (0, 0) has its min corner at `corner`; charts dilated by half the gap may lie in all cells.
-struct Frame {
-  double cell;
-  Vec2 corner;
-  int width, height;
-};
-
-Frame make_frame(const FrameOptions& options, std::size_t charts) {
-  Frame frame;
+/// The frame in cells: charts dilated by half the gap may lie in all of them.
+Window make_window(const FrameOptions& options, std::size_t charts) {
+  Window frame;
   frame.cell = options.frame.maxCoeff() / std::clamp(256 * std::sqrt(static_cast<double>(charts) / 15), 512.0, 1536.0);
   frame.corner = Vec2::Constant(options.margin - 0.5 * options.gap);
   const Vec2 cells = (options.frame - 2 * frame.corner) / frame.cell;
@@ -36,29 +30,10 @@ Frame make_frame(const FrameOptions& options, std::size_t charts) {
   return frame;
 }
 
-/// The cells that an obstacle may touch: its own raster lies anywhere between the frame's cells, so each of its cells covers
-/// four.
-Raster in_cells_of(const Frame& frame, const Outline& obstacle, double gap) {
-  const Raster own = rasterise(obstacle, {}, 0.5 * gap, frame.cell);
-  const Vec2 offset = (own.origin - frame.corner) / frame.cell;
-  const double left = std::floor(offset.x()), bottom = std::floor(offset.y());
-  Raster out;
-  out.width = frame.width;
-  out.height = frame.height;
-  for (const Run& run : own.runs) {
-    const double begin = std::max(0.0, left + run.begin), end = std::min<double>(frame.width, left + run.end + 1);
-    for (const double row : {bottom + run.row, bottom + run.row + 1}) {
-      if (begin < end && row >= 0 && row < frame.height)
-        out.runs.push_back({static_cast<int>(row), static_cast<int>(begin), static_cast<int>(end)});
-    }
-  }
-  return out;
-}
-
-Occupancy taken_by(const Frame& frame, const std::vector<Outline>& obstacles, double gap) {
+Occupancy taken_by(const Window& frame, const std::vector<Outline>& obstacles, double gap) {
   Occupancy taken(frame.width);
   for (const Outline& obstacle : obstacles) {
-    const Raster raster = in_cells_of(frame, obstacle, gap);
+    const Raster raster = rasterise_in(frame, obstacle, 0.5 * gap);
     if (!raster.runs.empty()) taken.add(raster, {0, 0});
   }
   return taken;
@@ -79,13 +54,14 @@ class FrameSearch {
       : outlines_(outlines),
         options_(options),
         watch_(options.tick),
-        frame_(make_frame(options, outlines.size())),
+        frame_(make_window(options, outlines.size())),
         taken_(taken_by(frame_, obstacles, options.gap)) {}
 
   /// Placements at this scale, empty where none was found.
   std::vector<Placement> fit(double scale, double progress) {
     watch_.begin_part(progress, progress);
     const std::vector<GridChart> charts = rasters_at(scale);
+    if (std::any_of(charts.begin(), charts.end(), [](const GridChart& chart) { return chart.rasters.empty(); })) return {};
     std::vector<GridLayout> layouts(kRules);
     parallel_ranges(kRules, options_.threads, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) layouts[k] = place(charts, k);
@@ -96,6 +72,7 @@ class FrameSearch {
   }
 
  private:
+  /// Of each chart those turns in which it is no larger than the frame.
   std::vector<GridChart> rasters_at(double scale) {
     const std::vector<Outline> outlines = scaled(outlines_, scale);
     const int n = static_cast<int>(outlines.size());
@@ -103,8 +80,13 @@ class FrameSearch {
     parallel_ranges(n, options_.threads, 16, [&](int begin, int end) {
       for (int i = begin; i < end; ++i) {
         watch_.poll(0);
-        for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : 2))
-          charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options_.gap, frame_.cell));
+        const std::vector<Vec2> hull = convex_hull(outlines[i]);
+        for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : 2)) {
+          // A needle that is far longer than the frame would fill the memory.
+          const Vec2 cells = turned_box(hull, turn).size() / frame_.cell;
+          if (cells.x() <= frame_.width && cells.y() <= frame_.height)
+            charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options_.gap, frame_.cell));
+        }
       }
     });
     return charts;
@@ -169,7 +151,7 @@ class FrameSearch {
   const std::vector<Outline>& outlines_;
   const FrameOptions& options_;
   Watch watch_;
-  Frame frame_;
+  Window frame_;
   Occupancy taken_;
 };
 

@@ -56,13 +56,14 @@ struct Row {
   std::vector<std::pair<double, int>> crossings;  ///< x, and +1 where the outline goes down
 };
 
-/// Adds the edge from a to b, in cells, to the rows that its capsule reaches.
+/// Adds the edge from a to b, in cells, to those rows that its capsule reaches.
 void add_edge(const Vec2& a, const Vec2& b, double radius, std::vector<Row>& rows) {
   const Capsule capsule{a, b, radius}, mirrored{{-a.x(), a.y()}, {-b.x(), b.y()}, radius};
   const double low = std::min(a.y(), b.y()), high = std::max(a.y(), b.y());
-  const int top = static_cast<int>(rows.size()) - 1;
-  const int first = std::clamp(static_cast<int>(std::floor(low - radius)), 0, top);
-  const int last = std::clamp(static_cast<int>(std::floor(high + radius)), 0, top);
+  const auto count = static_cast<double>(rows.size());
+  if (high + radius < 0 || low - radius >= count) return;
+  const int first = static_cast<int>(std::max(std::floor(low - radius), 0.0));
+  const int last = static_cast<int>(std::min(std::floor(high + radius), count - 1));
   for (int y = first; y <= last; ++y) {
     rows[y].covered.push_back({-mirrored.right_in(y, y + 1), capsule.right_in(y, y + 1)});
     const double middle = y + 0.5;
@@ -85,9 +86,11 @@ void add_inside(Row& row) {
 void add_row(Raster& raster, int y, std::vector<Interval>& intervals) {
   std::sort(intervals.begin(), intervals.end(), [](const Interval& p, const Interval& q) { return p.low < q.low; });
   const size_t first = raster.runs.size();
+  const double width = raster.width;
   for (const Interval& interval : intervals) {
-    const int begin = std::clamp(static_cast<int>(std::floor(interval.low)), 0, raster.width - 1);
-    const int end = std::clamp(static_cast<int>(std::floor(interval.high)) + 1, begin + 1, raster.width);
+    if (interval.high < 0 || interval.low >= width) continue;
+    const int begin = static_cast<int>(std::max(std::floor(interval.low), 0.0));
+    const int end = std::max(begin + 1, static_cast<int>(std::min(std::floor(interval.high) + 1, width)));
     if (raster.runs.size() > first && begin <= raster.runs.back().end) {
       raster.runs.back().end = std::max(raster.runs.back().end, end);
     } else {
@@ -101,11 +104,26 @@ void add_row(Raster& raster, int y, std::vector<Interval>& intervals) {
   }
 }
 
+/// Sets the raster's cells that the loops, given in cells, touch when they are dilated by `radius` cells.
+void cover(Raster& raster, const std::vector<std::vector<Vec2>>& loops, double radius) {
+  raster.words = (raster.width + 63) / 64;
+  raster.bits.assign(static_cast<size_t>(raster.stride()) * raster.height + 1, 0);
+  std::vector<Row> rows(raster.height);
+  for (const auto& loop : loops) {
+    for (size_t i = 0; i < loop.size(); ++i) add_edge(loop[i], loop[(i + 1) % loop.size()], radius, rows);
+  }
+  for (int y = 0; y < raster.height; ++y) {
+    add_inside(rows[y]);
+    add_row(raster, y, rows[y].covered);
+  }
+}
+
+// Widened by what round-off may lose, so that "touches" is never missed.
+constexpr double kSlack = 1e-7;  // cells
+
 }  // namespace
 
 Raster rasterise(const Outline& outline, const Turn& turn, double radius, double cell) {
-  // Widened by what round-off may lose, so that "touches" is never missed.
-  const double slack = 1e-7;
   std::vector<std::vector<Vec2>> loops = outline.loops;
   Box box{Vec2::Constant(INFINITY), Vec2::Constant(-INFINITY)};
   for (auto& loop : loops) {
@@ -117,23 +135,32 @@ Raster rasterise(const Outline& outline, const Turn& turn, double radius, double
   }
   Raster raster;
   raster.turn = turn;
-  const double r = radius / cell + slack;
+  const double r = radius / cell + kSlack;
   raster.origin = box.min - Vec2::Constant(r * cell);
   raster.width = static_cast<int>(std::floor(box.size().x() / cell + 2 * r)) + 1;
   raster.height = static_cast<int>(std::floor(box.size().y() / cell + 2 * r)) + 1;
-  raster.words = (raster.width + 63) / 64;
-  raster.bits.assign(static_cast<size_t>(raster.stride()) * raster.height + 1, 0);
+  for (auto& loop : loops) {
+    for (Vec2& p : loop) p = (p - raster.origin) / cell;
+  }
+  cover(raster, loops, r);
+  return raster;
+}
 
-  std::vector<Row> rows(raster.height);
-  for (const auto& loop : loops) {
-    for (size_t i = 0; i < loop.size(); ++i) {
-      add_edge((loop[i] - raster.origin) / cell, (loop[(i + 1) % loop.size()] - raster.origin) / cell, r, rows);
+Raster rasterise_in(const Window& window, const Outline& outline, double radius) {
+  std::vector<std::vector<Vec2>> loops = outline.loops;
+  double farthest = 0;
+  for (auto& loop : loops) {
+    for (Vec2& p : loop) {
+      p = (p - window.corner) / window.cell;
+      farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
     }
   }
-  for (int y = 0; y < raster.height; ++y) {
-    add_inside(rows[y]);
-    add_row(raster, y, rows[y].covered);
-  }
+  Raster raster;
+  raster.origin = window.corner;
+  raster.width = window.width;
+  raster.height = window.height;
+  // Where an edge with far ends passes the window is known to no more than round-off of its ends.
+  cover(raster, loops, radius / window.cell + std::max(kSlack, 1e-14 * farthest));
   return raster;
 }
 

@@ -36,6 +36,16 @@ struct Raster {
 /// `cell`.
 Raster rasterise(const Outline& outline, const Turn& turn, double radius, double cell);
 
+/// A rectangle of cells of side `cell`; cell (0, 0) has its min corner at `corner`.
+struct Window {
+  double cell;
+  Vec2 corner;
+  int width, height;  ///< cells
+};
+
+/// The window's cells that the outline touches when it is dilated by `radius`; it may lie anywhere and be of any size.
+Raster rasterise_in(const Window& window, const Outline& outline, double radius);
+
 struct Cell {
   int x = 0;
   int y = 0;
