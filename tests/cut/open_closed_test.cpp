@@ -88,10 +88,11 @@ TEST(OpenClosed, ForecastOfAConeIsItsCurvature) {
 }
 
 TEST(OpenClosed, LoopsOfATorusAreShort) {
-  // Radii 3 and 1: the shortest cut to a disk is one loop round the tube and one through the hole, 2 pi (1 + 2).
+  // Radii 3 and 1: the shortest cut to a disk is one loop round the tube and one through the hole, 2 pi (1 + 2). From there a
+  // seam half round the tube saves more than its length is worth.
   const Chart chart = only_chart(shapes::torus(48, 16));
   const CutAtlas cut = opened(chart);
-  EXPECT_LE(cut.seams.size(), 48u + 16u);
+  EXPECT_LE(cut.seams.size(), 48u + 16u + 16u / 2);
 }
 
 }  // namespace
