@@ -113,7 +113,7 @@ class Atlas:
 
     def _done(self, result, maps):
         prints = tuple((part.name, uv_map, _print(part.name, uv_map)) for part, uv_map in zip(self.parts, maps, strict=True))
-        return self._shown(prints, result=result, left=self._left(result))
+        return self._shown(prints, self.title, result=result, left=self._left(result))
 
     def _left(self, result):
         """Nothing where faces were divided: their numbers are others now."""
@@ -123,17 +123,17 @@ class Atlas:
         return tuple((part.name, self.request.joined.faces_of(k, left)) for k, part in enumerate(self.parts))
 
     def measure(self):
-        """What the panel shows of the meshes as they are."""
-        joined, options = self.request.joined, self.options
-        measures = engine.measure(*joined.arrays(), **options.box_arguments(self.texture))
+        """What the panel shows of the meshes as they are: a Done for each texture or tile."""
         prints = tuple((part.name, part.uv_map, _print(part.name, part.uv_map)) for part in self.parts)
-        return self._shown(prints, measures=measures)
+        for name, arrays in self.request.boxes():
+            measures = engine.measure(*arrays, **self.options.box_arguments(self.texture))
+            yield self._shown(prints, ", ".join(filter(None, (self.title, name))), measures=measures)
 
-    def _shown(self, prints, **found):
+    def _shown(self, prints, title, **found):
         request = self.request
         is_free = not request.arguments["in_texture"]
         beyond = request.reaches_beyond and not is_free
-        return Done(self.title, request.face_count, is_free, beyond, notes=tuple(self.notes), prints=prints, **found)
+        return Done(title, request.face_count, is_free, beyond, notes=tuple(self.notes), prints=prints, **found)
 
 
 class Run:
@@ -226,7 +226,7 @@ def measure_all(context, options, problems):
     out = []
     for atlas in read_atlases(context, options, problems):
         try:
-            out.append(atlas.measure())
+            out += atlas.measure()
         except FAILURES as error:
             problems.append((atlas.title, str(error)))
     if out:

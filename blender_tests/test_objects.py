@@ -185,6 +185,12 @@ class Tiles(unittest.TestCase):
         self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7), {"FINISHED"})
         self.assertLess(uvs_of(self.obj).max(), 1)
 
+    def test_measure_tells_of_each_tile(self):
+        self.tiled_image(0)
+        told = messages(bpy.ops.uv.atlas_refine_measure)
+        self.assertIn("Loose, 1001: Texture use 9 %", told)
+        self.assertIn("Loose, 1002: Texture use 10 %", told)
+
     def test_unless_each_is_to_keep_its_own(self):
         self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7, tiles="EACH"), {"FINISHED"})
         self.assertGreater(uvs_of(self.obj)[72:, 0].min(), 1)

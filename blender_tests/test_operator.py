@@ -146,3 +146,11 @@ class Operator(unittest.TestCase):
         before = packing_efficiency(obj.data, obj.data.uv_layers.active)
         self.assertEqual(bpy.ops.uv.atlas_refine(best_effort=True, **options), {"FINISHED"})
         self.assertGreater(packing_efficiency(obj.data, obj.data.uv_layers.active), before)
+
+    def test_advanced_options_reach_the_engine(self):
+        obj = add_mesh()
+        options = {"relax": True, "candidates": 20, "threads": 1, "seed": 3, "open_closed": False}
+        self.assertEqual(bpy.ops.uv.atlas_refine(seams="RECTANGLES", max_distortion=1.5, **options), {"FINISHED"})
+        self.assertGreaterEqual(packing_efficiency(obj.data, obj.data.uv_layers.active), 0.8)
+        self.assert_refused(add_mesh(), ["no atlas within a distortion of 1.0001"], max_distortion=1.0001)
+        self.assert_refused(add_mesh(), ["candidates"], seams="RECTANGLES", candidates=0)

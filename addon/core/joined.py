@@ -38,7 +38,7 @@ class Joined:
     def __init__(self, parts):
         self.parts = parts
         self.faces = [np.flatnonzero(part.taken) for part in parts]
-        self.corners = [_corners_of(part.atlas.face_offsets, faces) for part, faces in zip(parts, self.faces, strict=True)]
+        self.corners = [corners_of(part.atlas.face_offsets, faces) for part, faces in zip(parts, self.faces, strict=True)]
         self.first_vertices = np.cumsum([0] + [len(part.atlas.positions) for part in parts])
         self.first_corners = np.cumsum([0] + [len(corners) for corners in self.corners])
         self.first_faces = np.cumsum([0] + [len(faces) for faces in self.faces])
@@ -125,7 +125,8 @@ class Joined:
         return own, corner_uvs[corners]
 
 
-def _corners_of(face_offsets, faces):
+def corners_of(face_offsets, faces):
+    """Numbers of the corners of these faces, face by face."""
     sizes = np.diff(face_offsets)[faces]
     first = np.cumsum(sizes) - sizes
     return np.repeat(face_offsets[:-1][faces] - first, sizes) + np.arange(sizes.sum())

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .joined import Joined
+from .joined import Joined, corners_of
 from .who import group_faces, groups_without_work, stay
 
 
@@ -21,6 +21,19 @@ class Request:
     @property
     def face_count(self):
         return int(self.joined.first_faces[-1])
+
+    def boxes(self):
+        """(name, the four array arguments) of each texture or tile by itself, moved to the first tile."""
+        positions, offsets, vertices, uvs = self.joined.arrays()
+        groups = self.arguments.get("groups")
+        if groups is None:
+            yield "", (positions, offsets, vertices, uvs)
+            return
+        for group, (name, origin) in enumerate(zip(self.arguments["group_names"], self.arguments["group_origins"], strict=True)):
+            faces = np.flatnonzero(groups == group)
+            corners = corners_of(offsets, faces)
+            own_offsets = np.concatenate([[0], np.cumsum(np.diff(offsets)[faces])])
+            yield name, (positions, own_offsets, vertices[corners], uvs[corners] - origin)
 
     @property
     def reaches_beyond(self):
