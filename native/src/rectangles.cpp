@@ -166,7 +166,7 @@ Attempt place_around_locked(const Refinement& run, const CutPlan& plan, CutAtlas
   restore(plan.sources, plan.freedom, cut);
   RefineOptions options = run.options;
   options.relax = options.relax || !options.rectangles.until_input;
-  Solution out = place_and_squeeze({run.input, options, run.monitor, run.journal, run.threads}, cut, false, range);
+  Solution out = place_and_squeeze({run.input, options, run.monitor, run.journal, run.threads, run.asked}, cut, false, range);
   if (!holds_bound(run, {.charts = meshes_of(out.atlas), .frame = out.atlas.frame}))
     return {.failure = "cut and placed around the locked ones, they do not reach the bound"};
   out.intervention = Intervention::Cut;
