@@ -1,6 +1,7 @@
 // The OBJ reader and both writers: any text is read or refused in words, and what was read comes back as it was.
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <iostream>
 #include <numeric>
 
@@ -76,6 +77,7 @@ void read_and_write(const std::string& text) {
 }  // namespace atlas_refine::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  const std::clock_t start = std::clock();
   const std::string text(reinterpret_cast<const char*>(bytes), size);
   atlas_refine::io::foreign_kind(text);
   try {
@@ -83,5 +85,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   } catch (const atlas_refine::RefineError& error) {
     atlas_refine::fuzz::require(*error.what() != '\0', "a refusal without words");
   }
+  atlas_refine::fuzz::require(std::clock() - start < 2 * CLOCKS_PER_SEC, "slow");
   return 0;
 }
