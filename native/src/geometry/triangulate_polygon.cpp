@@ -20,7 +20,7 @@ using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
     Kernel,
     CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>,
                                          CGAL::Constrained_triangulation_face_base_2<Kernel>>,
-    CGAL::No_constraint_intersection_tag>;
+    CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
 /// A fan triangle below this share of the mean one is a sliver, in the UV plane or in space; another diagonal is better.
 constexpr double kSmallestShare = 0.05;
