@@ -78,13 +78,12 @@ def test_the_border_is_kept_around_locked_charts_too():
 
 def test_a_gap_that_is_pressed_to_its_last_survives_single_precision():
     positions, offsets, corners, uvs = shapes.loose()
-    locked = np.repeat([False, True, False], [48, 36, 18])
     uvs = (uvs / 30).astype(np.float32).astype(np.float64)
-    result = in_texture((positions, offsets, corners, uvs), pe_bound=0.6, gap=4 / 2048, gap_unit="long_side", locked=locked)
+    options = {"pe_bound": 0.6, "gap": 4 / 2048, "gap_unit": "long_side", "density": "keep"}
+    options["locked"] = np.repeat([False, True, False], [48, 36, 18])
+    result = in_texture((positions, offsets, corners, uvs), **options)
     assert result.after.pe_fixed_aspect >= 0.6
-    again = in_texture(
-        (positions, offsets, corners, result.corner_uvs), pe_bound=0.6, gap=4 / 2048, gap_unit="long_side", locked=locked
-    )
+    again = in_texture((positions, offsets, corners, result.corner_uvs), **options)
     assert again.intervention == "unchanged"
 
 
