@@ -64,6 +64,8 @@ def prepare(engine, parts, options, texture=None, tile=(0, 0), material_names=()
         groups, first = group_faces(codes)
     joined = Joined(parts)
     arguments = {**options.engine_arguments(texture), **_arguments_of(joined, locked)}
+    if "locked" in arguments and options.aspect == "FREE":  # what stays where it is, is somewhere in a texture
+        arguments.update(box_aspect=1.0, in_texture=True)
     origins = corners[codes[first, 1]]
     if len(first) > 1 or np.any(origins):
         labels = [name or "no material" for name in material_names] if by_material else [""]

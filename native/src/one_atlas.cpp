@@ -30,10 +30,11 @@ bool holds_already(const InputAtlas& input, const Freedoms& freedom, const Refin
   if (before.pe_fixed_aspect < options.pe_bound || !within_limit(options, before.distortion)) return false;
   if (!validate_split(input.set, freedom).valid()) return false;
   const bool framed = is_in_texture(freedom, options);
-  const double aspect = within.box_aspect, slack = border_of(options) > 0 ? 2 * kBorderSpare : 0;
-  if (framed && !lies_in_texture(charts_as_placed(input.set), freedom, aspect, slack)) return false;
+  const double border = border_of(options), slack = border > 0 ? 2 * kBorderSpare : 0;
+  if (framed && !lies_in_texture(charts_as_placed(input.set), freedom, within.box_aspect, slack)) return false;
+  const double aspect = options.box_aspect;
   const Vec2 box = framed ? Vec2(aspect, 1) : box_of_aspect(uv_box(input.set.charts), aspect).size();
-  return !within.gap || gap_between_charts(input.set.charts, freedom) >= within.gap->length(box);
+  return !options.gap || (1 - 2 * border) * gap_between_charts(input.set.charts, freedom) >= options.gap->length(box);
 }
 
 Outcome unchanged(const InputAtlas& input, const RefineOptions& options) {

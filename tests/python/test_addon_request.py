@@ -169,3 +169,10 @@ def test_protected_faces_and_edges_go_to_the_engine():
     first = len(parts[0].atlas.positions)
     assert request.arguments["no_seam"].tolist() == [[first, first + 1]]
     assert run(request).charts[5].fate == "kept"
+
+
+def test_with_locked_charts_a_free_box_is_the_texture():
+    part = make_part()
+    part.pinned[50] = True
+    arguments = prepare(atlas_refine, [part], FREE).arguments
+    assert (arguments["box_aspect"], arguments["in_texture"]) == (1.0, True)

@@ -76,6 +76,17 @@ def test_the_border_is_kept_around_locked_charts_too():
     assert min(free.min(), (1 - free).min()) >= 8 / 256
 
 
+def test_a_gap_that_is_pressed_to_its_last_survives_single_precision():
+    positions, offsets, corners, uvs = shapes.loose()
+    uvs = (uvs / 30).astype(np.float32).astype(np.float64)
+    options = {"pe_bound": 0.6, "gap": 4 / 2048, "gap_unit": "long_side", "density": "keep"}
+    options["locked"] = np.repeat([False, True, False], [48, 36, 18])
+    result = in_texture((positions, offsets, corners, uvs), **options)
+    assert result.after.pe_fixed_aspect >= 0.6
+    again = in_texture((positions, offsets, corners, result.corner_uvs), **options)
+    assert again.intervention == "unchanged"
+
+
 def test_a_border_that_leaves_less_than_the_bound_is_refused():
     with pytest.raises(atlas_refine.AtlasRefineError, match="border") as caught:
         in_texture(shapes.loose(), pe_bound=0.8, gap=0.08, gap_unit="long_side")

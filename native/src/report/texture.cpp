@@ -38,7 +38,7 @@ RefineOptions within_border(RefineOptions options) {
                           " of it, less than the bound " + number_text("%g", options.pe_bound));
   constexpr double kMost = 0.9999;
   options.pe_bound = std::min(options.pe_bound / share, share <= options.pe_bound ? kMost : 1.0);
-  options.gap = Gap{options.gap->length(texture) / inner.maxCoeff(), Gap::Unit::LongSide};
+  options.gap = Gap{(options.gap->length(texture) + kBorderSpare) / inner.maxCoeff(), Gap::Unit::LongSide};
   options.box_aspect = inner.x() / inner.y();
   return options;
 }

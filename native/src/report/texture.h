@@ -18,8 +18,8 @@ bool is_in_texture(const Freedoms& freedom, const RefineOptions& options);
 double border_of(const RefineOptions& options);
 inline constexpr double kBorderSpare = 1e-6;
 
-/// The same options for the box within that border: its aspect, and bound and gap as fractions of it. Throws
-/// RefineError(BoundNotReached) where it cannot hold the bound and no best effort is asked for.
+/// The same options for the box within that border: its aspect, and bound and gap, which has that little more too, as fractions
+/// of it. Throws RefineError(BoundNotReached) where it cannot hold the bound and no best effort is asked for.
 RefineOptions within_border(RefineOptions options);
 
 /// Where the box is the texture, whose corner is at `origin`, PE is what the charts cover of it. The charts are in units of the
