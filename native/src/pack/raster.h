@@ -39,6 +39,8 @@ Raster rasterise(const Outline& outline, const Turn& turn, double radius, double
 struct Cell {
   int x = 0;
   int y = 0;
+
+  bool operator==(const Cell&) const = default;
 };
 
 /// Number of cells that two rasters share when their cells (0, 0) lie at the
