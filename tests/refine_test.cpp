@@ -218,6 +218,10 @@ TEST(Refine, HairCardsKeepALargeGapAndTheirShapes) {
   EXPECT_LT(result.after.distortion, 1.005);
 }
 
+TEST(Refine, ScrapsAmongBlobsHoldTheBound) {
+  EXPECT_GE(refine_soundly(shapes::scraps_and_blobs(150), {.threads = 2}).gap.value, 0.0009);
+}
+
 TEST(Refine, ABoundThatAHardGapForbidsNamesTheBestPe) {
   const Atlas atlas = shapes::squares(9, 0.3);
   RefineOptions options{.pe_bound = 0.95, .gap = Gap{0.03}};

@@ -342,6 +342,23 @@ Atlas squares(int count, double spacing) {
   return combine(charts);
 }
 
+Atlas scraps_and_blobs(int count, std::uint64_t seed) {
+  constexpr double kPitch = 4;  // of a loose layout, more than any chart is wide
+  const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
+  std::vector<Atlas> charts;
+  for (int k = 0; k < count; ++k) {
+    Rng rng(seed, k);
+    const bool scrap = rng.uniform() < 0.8;
+    Atlas chart = scrap ? quad_grid(1 + rng.below(4), 1) : mesh(random_star_polygon(seed + k), 0.15);
+    const double size = (scrap ? 0.35 : 1.5) * std::exp(0.5 * rng.uniform(-1, 1));
+    const Vec2 corner(kPitch * (k % columns), kPitch * (k / columns));
+    for (Vec3& p : chart.positions) p *= size;
+    for (Vec2& uv : chart.corner_uvs) uv = size * uv + corner;
+    charts.push_back(std::move(chart));
+  }
+  return combine(charts);
+}
+
 Atlas disk_in_ring() { return combine({mesh(ring()), mesh(disk(0.15))}); }
 
 Atlas touching_charts() { return combine({mesh(rectangle(1, 1), 0.2), mesh(transformed(rectangle(1, 1), 1, 0, {1, 0}), 0.2)}); }

@@ -54,8 +54,10 @@ std::vector<Named> named_polygons();
 // Atlases of several charts.
 Atlas two_squares(double distance);              ///< unit squares of two meshes side by side, `distance` apart in u
 Atlas squares(int count, double spacing = 0.2);  ///< many charts: a grid of quads of 2 x 2 faces, sides 0.5..1
-Atlas disk_in_ring();                            ///< a ring, and a small disk as a second chart inside its hole
-Atlas touching_charts();                         ///< two squares that share a whole border line in UV, not in 3D
+/// As real atlases of thousands of charts are: four of five are scraps of 2 to 8 triangles, the others blobs, sizes uneven.
+Atlas scraps_and_blobs(int count, std::uint64_t seed = 1);
+Atlas disk_in_ring();     ///< a ring, and a small disk as a second chart inside its hole
+Atlas touching_charts();  ///< two squares that share a whole border line in UV, not in 3D
 
 // Single charts with a twist.
 Atlas quad_grid(int columns, int rows);                       ///< faces with 4 corners, lifted

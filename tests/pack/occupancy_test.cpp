@@ -40,6 +40,10 @@ TEST(Occupancy, FindsTheLowestThenLeftmostPlace) {
     EXPECT_EQ(found.x, expected.x);
     EXPECT_EQ(found.y, expected.y);
     EXPECT_EQ(strip.find_lowest(raster, found.y - 1, expected), false);
+    Cell above;
+    ASSERT_TRUE(strip.find_lowest(raster, 100000, above, found.y + 1));
+    EXPECT_GT(above.y, found.y);
+    EXPECT_TRUE(is_free(all, raster, above));
     strip.add(raster, found);
     all.push_back({raster, found});
   }

@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "outlines.h"
+#include "pack/layout.h"
+#include "pack/turns.h"
 #include "support/rng.h"
 
 namespace atlas_refine {
@@ -148,6 +152,45 @@ TEST(PackCharts, ManyChartsInFewSeconds) {
   }
   const Packing packing = pack_charts(charts.outlines, charts.areas, {.gap = 0.01, .threads = 2});
   EXPECT_GT(packing.pe, 0.5);
+}
+
+/// Scraps among blobs: four charts of five are small.
+Charts scraps_and_blobs(int count) {
+  Charts charts;
+  for (int k = 0; k < count; ++k) {
+    Rng rng(12, k);
+    const bool scrap = rng.uniform() < 0.8;
+    const double size = (scrap ? 0.3 : 1.5) * std::exp(0.5 * rng.uniform(-1, 1));
+    charts.add(shapes::transformed(scrap ? shapes::rectangle(1, 0.4) : shapes::random_star_polygon(k, 12), size, 0, {0, 0}));
+  }
+  return charts;
+}
+
+TEST(PackCharts, MoreChartsFillTheBoxAsWell) {
+  const auto pe = [](int count) {
+    const Charts charts = scraps_and_blobs(count);
+    return pack_charts(charts.outlines, charts.areas, {.gap = 0.01, .threads = 2}).pe;
+  };
+  EXPECT_GT(pe(5000), pe(1100) - 0.02);
+}
+
+TEST(PackCharts, WorkIsNearlyLinearInCharts) {
+  const auto work = [](int count) {
+    const Charts charts = scraps_and_blobs(count);
+    std::vector<GridChart> grid;
+    const double cells = 256 * std::sqrt(count / 60.0), cell = std::sqrt(charts.area / 0.8) / cells;
+    GreedyRule rule{.strip_width = static_cast<int>(cells), .resume = true};
+    for (const Outline& outline : charts.outlines) {
+      auto& rasters = grid.emplace_back().rasters;
+      for (const Turn& turn : turns_to_try(outline, 1)) rasters.push_back(rasterise(outline, turn, 0, cell));
+      rule.order.push_back(static_cast<int>(rule.order.size()));
+    }
+    const auto size = [&](int chart) { return grid[chart].rasters[0].width * grid[chart].rasters[0].height; };
+    std::stable_sort(rule.order.begin(), rule.order.end(), [&](int a, int b) { return size(a) > size(b); });
+    Watch watch({});
+    return static_cast<double>(place_greedily(grid, rule, watch).work);
+  };
+  EXPECT_LT(std::log2(work(4000) / work(1000)) / 2, 1.25);
 }
 
 TEST(PackCharts, TicksInOrderAndCancels) {

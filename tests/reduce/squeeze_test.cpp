@@ -38,6 +38,19 @@ TEST(Squeeze, ReducesTheGapOnlyAsFarAsNeeded) {
   EXPECT_EQ(squeeze({{charts}}, make_objective(charts), options, monitor).gap.value, 0.03);
 }
 
+TEST(AutomaticGaps, StartWithTheLargestThatTheBoundCanHold) {
+  const std::vector<Chart> charts = charts_of(shapes::squares(400, 0.4));
+  const double half_perimeter = 0.5 * uv_perimeter(charts), area = uv_area(charts);
+  for (const double most_covered : {1.0, kMostCoveredBent}) {
+    const std::vector<Gap> gaps = automatic_gaps(charts, 0.85, 1, 0, most_covered);
+    const Vec2 box = sides_of_area(area / 0.85, 1);
+    const auto covered = [&](double value) { return (area + Gap{value}.length(box) * half_perimeter) / box.prod(); };
+    EXPECT_LT(covered(gaps.front().value), 1.02 * most_covered);
+    EXPECT_GT(covered(gaps.front().value / 0.6), most_covered) << "a larger one was possible";
+    EXPECT_GT(gaps.size(), 2u);
+  }
+}
+
 TEST(Squeeze, TheBitsDoNotDependOnTheThreads) {
   const std::vector<Chart> charts = charts_of(shapes::disk_in_ring());
   const auto run = [&](int threads) {

@@ -2,11 +2,26 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "pack/layout.h"
 #include "pack/occupancy.h"
 
 namespace atlas_refine {
+namespace {
+
+/// Rows below which rasters of about one size no longer find a place: so many steps to twice the size.
+class FullRows {
+ public:
+  int& of(const Raster& raster) { return rows_[{step(raster.width), step(raster.height)}]; }
+
+ private:
+  static int step(int cells) { return static_cast<int>(std::lround(4 * std::log2(cells))); }
+
+  std::map<std::pair<int, int>, int> rows_;
+};
+
+}  // namespace
 
 GridLayout place_greedily(const std::vector<GridChart>& charts, const GreedyRule& rule, Watch& watch) {
   GridLayout layout;
@@ -14,6 +29,7 @@ GridLayout place_greedily(const std::vector<GridChart>& charts, const GreedyRule
   layout.places.assign(charts.size(), {});
   Occupancy strip(rule.strip_width);
   Rng rng = rule.rng;
+  FullRows full;
   int placed = 0;
   for (const int chart : rule.order) {
     watch.poll(static_cast<double>(placed++) / charts.size());
@@ -25,7 +41,14 @@ GridLayout place_greedily(const std::vector<GridChart>& charts, const GreedyRule
       const double room = std::min(best_cost - extra, static_cast<double>(std::numeric_limits<int>::max()));
       if (room < 0) continue;
       Cell place;
-      if (!strip.find_lowest(rasters[turn], static_cast<int>(std::floor(room)), place)) continue;
+      int nothing_below = 0;
+      int& lowest = rule.resume ? full.of(rasters[turn]) : nothing_below;
+      const int highest = static_cast<int>(std::floor(room));
+      if (!strip.find_lowest(rasters[turn], highest, place, lowest)) {
+        lowest = std::max(lowest, std::min(highest, strip.height()));
+        continue;
+      }
+      lowest = place.y;
       const double cost = place.y + extra;
       if (cost > best_cost || (cost == best_cost && place.x >= best_x)) continue;
       best_cost = cost;

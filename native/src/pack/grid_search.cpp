@@ -17,11 +17,13 @@ namespace {
 /// Beyond this many charts, separation and many starts cost more than they
 /// bring.
 constexpr int kManyCharts = 200;
-/// Beyond this many charts even compaction does.
+/// Beyond this many charts even compaction does, and so does looking for each chart's place from the bottom on.
 constexpr int kTooManyToCompact = 1000;
 constexpr int kFinalists = 4;
 /// Work of all greedy starts in words looked at: more than atlases of any number of charts need, half a second of tall strips.
 constexpr std::int64_t kGreedyWork = 200'000'000;
+/// Cells along the side: more charts need a finer grid, or most of it is what rounding adds to each; bounds its memory.
+constexpr double kMostCells = 8192;
 /// Cells are so large that no chart is longer than this many sides of the grid: a needle's length is no measure of the area.
 constexpr double kLongestChart = 16;
 
@@ -57,7 +59,7 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
     longest = std::max(longest, length_of(outline) + options.gap);
   }
   Grid grid;
-  grid.cells_per_side = std::clamp(256 * std::sqrt(n / 60.0), 256.0, 1024.0);
+  grid.cells_per_side = std::clamp(256 * std::sqrt(n / 60.0), 256.0, kMostCells);
   grid.cell = std::max(std::sqrt(dilated_area / 0.8), longest / kLongestChart) / grid.cells_per_side;
   grid.charts.resize(n);
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
@@ -91,6 +93,7 @@ GreedyRule random_rule(const Grid& grid, double aspect, Rng rng) {
   rule.strip_width = std::max(widest, static_cast<int>(grid.cells_per_side * width));
   rule.height_weight = rng.uniform(0.3, 1.2);
   rule.turn_noise = rng.uniform(0, 0.2);
+  rule.resume = n > kTooManyToCompact;
   rule.rng = rng;
   return rule;
 }
@@ -184,14 +187,29 @@ class Search {
     rank();
   }
 
+  /// Of the best `count` layouts those that were not compacted yet: a search that gained nothing hands back its start.
+  std::vector<GridLayout> not_compacted(int count) {
+    std::vector<GridLayout> fresh;
+    for (int k = 0; k < count; ++k) {
+      const GridLayout& layout = layouts_[k];
+      const auto same = [&](const GridLayout& other) { return other.turns == layout.turns && other.places == layout.places; };
+      if (std::any_of(compacted_.begin(), compacted_.end(), same)) continue;
+      compacted_.push_back(layout);
+      fresh.push_back(layout);
+    }
+    return fresh;
+  }
+
   void compact_best(int count, double from, double to) {
+    const std::vector<GridLayout> fresh = not_compacted(count);
+    count = static_cast<int>(fresh.size());
     std::vector<std::vector<Placement>> compacted(count);
     watch_.begin_part(from, to);
     parallel_ranges(count, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         watch_.begin_task(k - begin, end - begin);
         const CompactionOptions options{options_.gap, options_.box_aspect, 2 * grid_.cell, [&] { watch_.poll(0); }};
-        compacted[k] = compact(outlines_, placements_of(grid_, layouts_[k]), options);
+        compacted[k] = compact(outlines_, placements_of(grid_, fresh[k]), options);
       }
     });
     for (auto& placements : compacted) offer(std::move(placements));
@@ -203,7 +221,8 @@ class Search {
   Watch watch_;
   double enough_;  ///< box area at which the target is reached
   Grid grid_;
-  std::vector<GridLayout> layouts_;  ///< smallest box first
+  std::vector<GridLayout> layouts_;    ///< smallest box first
+  std::vector<GridLayout> compacted_;  ///< those that need not be compacted again
   std::vector<Placement> best_;
   double least_area_ = INFINITY;
 };

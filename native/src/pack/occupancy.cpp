@@ -46,7 +46,6 @@ int Occupancy::longest_free_run(int y) {
 
 void Occupancy::add(const Raster& raster, const Cell& place) {
   grow(place.y + raster.height);
-  work_ += static_cast<std::int64_t>(raster.height) * levels_ * words_;
   height_ = std::max(height_, place.y + raster.height);
   for (const Run& run : raster.runs) {
     std::uint64_t* row = level_row(place.y + run.row, 0);
@@ -58,7 +57,10 @@ void Occupancy::add(const Raster& raster, const Cell& place) {
       const std::uint64_t* below = level_row(y, level - 1);
       std::uint64_t* row = level_row(y, level);
       const int step = 1 << (level - 1);
-      for (int word = 0; word < words_; ++word) {
+      // Only runs that start less than their length before the raster, or in it, have changed.
+      const int first = std::max(0, place.x - 2 * step + 1) >> 6, last = (place.x + raster.width - 1) >> 6;
+      work_ += last - first + 1;
+      for (int word = first; word <= last; ++word) {
         const int at = word * 64 + step;
         const std::uint64_t shifted = (at >> 6) + 1 < words_ ? bits_from(below, at) : 0;
         row[word] = below[word] | shifted;
@@ -81,7 +83,7 @@ std::uint64_t Occupancy::blocked_word(const Raster& raster, const std::vector<in
   return blocked;
 }
 
-bool Occupancy::find_lowest(const Raster& raster, int highest, Cell& place) {
+bool Occupancy::find_lowest(const Raster& raster, int highest, Cell& place, int lowest) {
   const int positions = width_ - raster.width + 1;
   if (positions <= 0) return false;
   // The longest run first, then runs spread over all heights: each is likely to
@@ -100,7 +102,7 @@ bool Occupancy::find_lowest(const Raster& raster, int highest, Cell& place) {
     if (static_cast<int>(reversed) < count) order.push_back(reversed);
   }
   const int longest_row = raster.runs[order[0]].row, longest = length(order[0]);
-  for (int y = 0; y <= std::min(highest, height_); ++y) {
+  for (int y = lowest; y <= std::min(highest, height_); ++y) {
     if (y + longest_row < height_ && longest_free_[y + longest_row] < longest) continue;
     for (int word = 0; word * 64 < positions; ++word) {
       std::uint64_t blocked = blocked_word(raster, order, y, word);

@@ -19,9 +19,9 @@ class Occupancy {
   int height() const { return height_; }       ///< rows up to the topmost taken cell
   std::int64_t work() const { return work_; }  ///< words looked at so far
 
-  /// Lowest, then leftmost place of the raster with y <= highest; false where
-  /// there is none.
-  bool find_lowest(const Raster& raster, int highest, Cell& place);
+  /// Lowest, then leftmost place of the raster with lowest <= y <= highest;
+  /// false where there is none.
+  bool find_lowest(const Raster& raster, int highest, Cell& place, int lowest = 0);
   void add(const Raster& raster, const Cell& place);
 
  private:

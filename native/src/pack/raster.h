@@ -49,6 +49,8 @@ Raster rasterise_in(const Window& window, const Outline& outline, double radius)
 struct Cell {
   int x = 0;
   int y = 0;
+
+  bool operator==(const Cell&) const = default;
 };
 
 /// Number of cells that two rasters share when their cells (0, 0) lie at the

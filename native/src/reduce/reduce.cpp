@@ -15,6 +15,7 @@ namespace {
 constexpr double kNegligible = 1e-8;  // a change of E_d that nobody can measure
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kStallIterations = 12;
+constexpr double kBackOff = 0.8;      // in a box: the floor of a gap is mostly overstepped by little
 constexpr double kFarBelow = 3;       // log PE below the target where charts that climb too slowly are given up,
 constexpr int kTrialIterations = 60;  // after so many iterations
 constexpr double kTelling = 1;        // damping up to which a rise of the objective is the price of PE
@@ -144,14 +145,15 @@ void advance(const Task& task, const Step& step, const Schedule& schedule, Itera
   }
   for (double& part : bounds.of_piece) part /= limit;
   Iterate trial;
-  at.fraction = line_search(limit, before, step.slope, [&](double fraction) {
+  const auto merit_at = [&](double fraction) {
     trial.state = moved(model, at.state, step.direction, bounds, fraction);
     if (task.bounded() && !(trial.state.box.minCoeff() > 0)) return kInfinite;
     const double pressure = barrier(model, trial.state, contacts);
     if (!std::isfinite(pressure)) return kInfinite;
     trial.energy = model_energy(model, trial.state.x);
     return merit(trial.state, trial.energy, pressure);
-  });
+  };
+  at.fraction = line_search(limit, before, step.slope, merit_at, task.bounded() ? kBackOff : 0.5);
   if (at.fraction == 0) return;
   at.state = std::move(trial.state);
   at.energy = trial.energy;
@@ -180,7 +182,8 @@ Counters counted(const Task& task, const Change& change, const Iterate& at, cons
   const ReduceProblem& problem = task.problem;
   const double deficit = task.deficit(at, schedule.margin);
   const bool on_target = !task.bounded() || std::abs(deficit) < 1e-4 || (task.holds_bound(at) && at.price == 0);
-  const double moved = std::abs(change.energy);
+  // What PE gained or lost has its price.
+  const double moved = std::abs(change.energy - (at.pe > 0 ? at.price * change.pe / at.pe : 0));
   const bool quiet = moved < problem.least_change * (at.energy - 1) + problem.negligible && at.fraction > 0.1;
   const bool calm =
       on_target && quiet && schedule.damping <= kTelling && settled(schedule, task.view(at, schedule.margin), at.price);

@@ -22,7 +22,7 @@ struct ReduceProblem {
   double pe_target = 0;          ///< in (0, 1), below or above the present PE; 0 = no box: least distortion in open space
   double enough_distortion = 0;  ///< stop as soon as the bound holds and the objective is at most this; 0 = go to the optimum
   double least_change = 2e-4;    ///< at the optimum where the objective - 1 changes by less, relative, twice in a row
-  double negligible = 1e-8;      ///< or by less than this
+  double negligible = 1e-8;      ///< or by less than this; what the present price gives for a change of PE is left out
   double max_distortion = 0;     ///< of the surface's E_d: give up the climb once it is exceeded at its least; 0 = no limit
   double max_rise = 0;  ///< give up the climb where the objective exceeds its least so far by this factor - 1; 0 = no limit
   int max_iterations = 600;

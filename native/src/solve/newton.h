@@ -2,6 +2,7 @@
 // The deformation to the axes, embedding and the reduction under the bound all step with these.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -64,15 +65,16 @@ struct StepBounds {
   double least() const;
 };
 
-/// Armijo: the largest of `limit`, limit / 2, limit / 4, ... at which `merit_at` is low enough, 0 where none is. `merit_at` is
-/// infinite where a state is not allowed; its last call is the accepted one.
+/// Armijo: the first of `limit` and smaller steps at which `merit_at` is low enough, 0 where none is: half as large where it is
+/// too high, `back_off` times as large where it is infinite, a state that is not allowed. Its last call is the accepted one.
 template <class MeritAt>
-double line_search(double limit, double merit, double slope, MeritAt&& merit_at) {
+double line_search(double limit, double merit, double slope, MeritAt&& merit_at, double back_off = 0.5) {
   constexpr double kDecrease = 1e-4;
-  constexpr int kMostHalvings = 30;
-  double fraction = limit;
-  for (int k = 0; k < kMostHalvings; ++k, fraction *= 0.5) {
-    if (merit_at(fraction) <= merit + kDecrease * fraction * slope) return fraction;
+  constexpr double kLeastPart = 1e-9;
+  for (double fraction = limit; fraction > kLeastPart * limit;) {
+    const double reached = merit_at(fraction);
+    if (reached <= merit + kDecrease * fraction * slope) return fraction;
+    fraction *= std::isfinite(reached) ? 0.5 : back_off;
   }
   return 0;
 }
