@@ -38,17 +38,27 @@ void flatten(const std::vector<Chart>& charts, ReduceModel& model) {
   model.first_vertex.push_back(count);
 }
 
+double range_of(const Vec2& box, const ReduceModel& model) {
+  const auto pieces = static_cast<double>(model.first_vertex.size() - 1);
+  return std::min(kRangeFraction * box.norm(), kRangeOfChart * std::sqrt(box.prod() / pieces));
+}
+
 /// A start in a frame stays where it is.
 void place_in_frame(const Vec2& frame, ReduceModel& model) {
   model.start.box = frame / model.objective.unit;
   model.range = kRangeFraction * model.start.box.norm();
 }
 
+/// So does one that goes on in a box.
+void place_in_box(const Vec2& box, ReduceModel& model) {
+  model.start.box = box / model.objective.unit;
+  model.range = range_of(model.start.box, model);
+}
+
 void place_start(ReduceModel& model) {
   const Box tight = box_of_points(model.start.x);
   const Vec2 size = box_of_aspect(tight, model.aspect).size();
-  const auto pieces = static_cast<double>(model.first_vertex.size() - 1);
-  model.range = std::min(kRangeFraction * size.norm(), kRangeOfChart * std::sqrt(size.prod() / pieces));
+  model.range = range_of(size, model);
   model.open_unit = model.gap.unit == Gap::Unit::BoxDiagonal ? size.norm() : size.maxCoeff();
   // The box grows a little, so that no chart touches a wall, and by less than kStartGap: the gap follows it.
   const Vec2 slack = model.aspect == 0 ? Vec2(Vec2::Constant(0.5 * model.range)) : Vec2(0.5 * kBoxGrowth * size);
@@ -133,6 +143,8 @@ ReduceModel make_model(const ReduceProblem& problem) {
   for (double& length : model.boundary.loop_length) length /= model.objective.unit;
   if (problem.frame.x() > 0)
     place_in_frame(problem.frame, model);
+  else if (problem.warm)
+    place_in_box(problem.warm->box, model);
   else
     place_start(model);
   model.node.resize(model.vertex_count());

@@ -27,6 +27,8 @@ ReduceResult reduce_from(const PlacedCharts& start, const Objective& objective, 
                               .gap = gap,
                               .box_aspect = options.box_aspect,
                               .pe_target = options.pe_bound,
+                              .least_change = options.least_change,
+                              .negligible = options.negligible,
                               .max_distortion = options.max_distortion,
                               .max_rise = gap.value == options.gaps.back().value || start.charts.size() == 1 ? 0 : kMostRise,
                               .threads = threads,
@@ -119,8 +121,8 @@ std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_boun
   return gaps;
 }
 
-Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
-                 Monitor& monitor) {
+Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
+                          Monitor& monitor) {
   Squeezed out;
   std::string note = options.gaps.front().value < Gap{}.value ? kNoRoom : "";
   std::vector<PlacedCharts> present = starts;

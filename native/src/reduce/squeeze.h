@@ -16,6 +16,8 @@ struct SqueezeOptions {
   double max_distortion = 0;  ///< of the surface's E_d; 0 = no limit
   int threads = 1;
   Freedoms freedom = {};  ///< of the charts; fixed ones need starts in a frame
+  double least_change = 2e-4;  ///< ReduceProblem::least_change
+  double negligible = 1e-8;     ///< ReduceProblem::negligible
 };
 
 /// Why the first of automatic_gaps() may be smaller than the default.
@@ -36,6 +38,11 @@ std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_boun
 /// distortion that holds the bound. Where none does, or the bound costs much distortion with this gap, the next one is tried, and
 /// kept where it spares a good part of that distortion; in the end, where none holds the bound, the state of the highest PE is
 /// returned. Starts run in parallel; the choice is by the objective, ties by index.
+Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
+                          Monitor& monitor);
+
+/// The same, sooner where charts have many triangles: on coarse charts, whose best result the charts themselves then go on from.
+/// Where that does not hold the bound they are squeezed directly.
 Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor);
 

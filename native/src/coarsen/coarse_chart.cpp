@@ -1,0 +1,146 @@
+// Sampling, triangulation and location of one chart.
+#include "coarsen/coarse_chart.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "coarsen/sample_vertices.h"
+#include "geometry/rest_triangle.h"
+#include "geometry/triangulate_region.h"
+#include "solve/symmetric_dirichlet.h"
+
+namespace atlas_refine {
+namespace {
+
+constexpr double kMostKept = 0.5;  // of the vertices: else there is little to gain
+
+/// Per vertex of the chart its entry in `kept`, -1 where it has none.
+std::vector<int> entries_of(const Chart& chart, const std::vector<int>& kept) {
+  std::vector<int> entry(chart.vertex_count(), -1);
+  for (std::size_t k = 0; k < kept.size(); ++k) entry[kept[k]] = static_cast<int>(k);
+  return entry;
+}
+
+std::vector<std::vector<int>> renamed(std::vector<std::vector<int>> loops, const std::vector<int>& entry) {
+  for (std::vector<int>& loop : loops) {
+    for (int& v : loop) v = entry[v];
+  }
+  return loops;
+}
+
+/// Per vertex: whether it lies on the boundary.
+std::vector<char> boundary_flags(const Chart& chart) {
+  std::vector<char> flags(chart.vertex_count(), 0);
+  for (const std::vector<int>& loop : chart.boundary_loops) {
+    for (const int v : loop) flags[v] = 1;
+  }
+  return flags;
+}
+
+/// Sides of triangles with all corners on the boundary: those triangles stay, or nothing inside could keep them from flipping.
+std::vector<std::array<int, 2>> chords(const Chart& chart, const std::vector<int>& entry) {
+  const std::vector<char> on_boundary = boundary_flags(chart);
+  std::vector<std::array<int, 2>> out;
+  for (const Triangle& t : chart.triangles) {
+    if (!on_boundary[t[0]] || !on_boundary[t[1]] || !on_boundary[t[2]]) continue;
+    for (int k = 0; k < 3; ++k) out.push_back({entry[t[k]], entry[t[(k + 1) % 3]]});
+  }
+  return out;
+}
+
+/// Every vertex in the coarse triangle that holds it, found from where a neighbour was found.
+std::vector<Place> places_of(const Chart& chart, const CoarseChart& coarse, const Locator& locator) {
+  std::vector<Place> places(chart.vertex_count());
+  for (std::size_t t = 0; t < coarse.mesh.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      Place& place = places[coarse.kept[coarse.mesh.triangles[t][k]]];
+      if (place.triangle >= 0) continue;
+      place.triangle = static_cast<int>(t);
+      place.weights[k] = 1;
+    }
+  }
+  // Triangles share vertices with those before them, mostly: one pass finds nearly all, and the last passes what is left.
+  for (bool left = true; left;) {
+    left = false;
+    for (const Triangle& t : chart.triangles) {
+      int near = -1;
+      for (const int v : t) near = std::max(near, places[v].triangle);
+      if (near < 0) {
+        left = true;
+        continue;
+      }
+      for (const int v : t) {
+        if (places[v].triangle < 0) places[v] = locator.locate(chart.uvs[v], near);
+      }
+    }
+  }
+  return places;
+}
+
+/// The triangle of the chart beside each boundary edge, keyed by the edge's ends.
+std::map<std::pair<int, int>, int> border_triangles(const Chart& chart) {
+  const std::vector<char> on_boundary = boundary_flags(chart);
+  std::map<std::pair<int, int>, int> out;
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = chart.triangles[t][k], b = chart.triangles[t][(k + 1) % 3];
+      if (on_boundary[a] && on_boundary[b]) out.emplace(std::pair(a, b), static_cast<int>(t));
+    }
+  }
+  return out;
+}
+
+Mat2 edges_of(const std::vector<Vec2>& uvs, const Triangle& t) {
+  Mat2 edges;
+  edges << uvs[t[1]] - uvs[t[0]], uvs[t[2]] - uvs[t[0]];
+  return edges;
+}
+
+/// Triangles beside the boundary are shaped as the chart's own there are, so that boundary edges keep their lengths; of others
+/// nobody asks.
+Surface surface_of(const Chart& chart, const CoarseChart& coarse) {
+  const auto border = border_triangles(chart);
+  const Mat2 scale = Mat2::Identity() * std::sqrt(chart.surface.area());
+  std::vector<RestTriangle> shapes;
+  for (const Triangle& t : coarse.mesh.triangles) {
+    const Mat2 edges = edges_of(coarse.mesh.uvs, t);
+    Mat2 map = scale;
+    for (int k = 0; k < 3; ++k) {
+      const auto beside = border.find({coarse.kept[t[k]], coarse.kept[t[(k + 1) % 3]]});
+      if (beside == border.end()) continue;
+      const Triangle& own = chart.triangles[beside->second];
+      map = edges_of(chart.uvs, own) * chart.surface[beside->second].inverse_edges;
+    }
+    const Mat2 inverse = edges.inverse() * map;
+    shapes.push_back({inverse, 0.5 / inverse.determinant()});
+  }
+  return Surface(std::move(shapes));
+}
+
+}  // namespace
+
+std::optional<CoarseChart> coarsen(const Chart& chart, double spacing) {
+  Sample sample = sample_vertices(chart, spacing);
+  if (static_cast<double>(sample.vertices.size()) > kMostKept * chart.vertex_count()) return std::nullopt;
+  CoarseChart out;
+  out.kept = std::move(sample.vertices);
+  const std::vector<int> entry = entries_of(chart, out.kept);
+  for (const int v : out.kept) out.mesh.uvs.push_back(chart.uvs[v]);
+  out.mesh.boundary_loops = renamed(chart.boundary_loops, entry);
+  out.mesh.number = chart.number;
+  auto triangles = triangulate_region(
+      {out.mesh.uvs, out.mesh.boundary_loops, chords(chart, entry), std::move(sample.near)});
+  if (!triangles) return std::nullopt;
+  out.mesh.triangles = std::move(*triangles);
+  out.mesh.triangle_faces.assign(out.mesh.triangles.size(), chart.triangle_faces.front());
+  const Locator locator(out.mesh.uvs, out.mesh.triangles);
+  out.places = places_of(chart, out, locator);
+  out.neighbours = locator.neighbours();
+  out.mesh.surface = surface_of(chart, out);
+  return out;
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,149 @@
+// Linear in each coarse triangle; then Newton steps of single vertices around bad elements.
+#include "coarsen/prolong.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/guards.h"
+#include "solve/foldover.h"
+#include "solve/newton.h"
+
+namespace atlas_refine {
+namespace {
+
+constexpr double kBad = 3;         // times its energy before: an element that has to be mended,
+constexpr double kMended = 6;      // and down to this it is mended
+constexpr int kMostSweeps = 40;    // over the vertices of bad elements
+constexpr int kOwnSweeps = 6;      // without those around them
+constexpr double kLeastBlur = 1e-3;  // epsilon of the energy for flipped elements
+
+/// Elements of a chart in solver units.
+struct Patch {
+  std::vector<Triangle> elements;
+  const ChartObjective& objective;
+  std::vector<Vec2> x;
+  std::vector<char> fixed;                ///< per vertex
+  std::vector<std::vector<int>> around;  ///< per vertex: its elements
+
+  Mat2 jacobian_of(int e) const {
+    const Triangle& t = elements[e];
+    return jacobian(objective.inverse_edges[e], x[t[0]], x[t[1]], x[t[2]]);
+  }
+  double energy_of(int e) const { return symmetric_dirichlet(jacobian_of(e)); }
+};
+
+std::vector<Triangle> elements_of(const Chart& chart) {
+  std::vector<Triangle> out = chart.triangles;
+  for (const Guard& guard : chart.guards) out.push_back(guard.triangle);
+  return out;
+}
+
+std::vector<Vec2> interpolated(const CoarseChart& coarse, const std::vector<Vec2>& coarse_uvs) {
+  std::vector<Vec2> out;
+  for (const Place& place : coarse.places) {
+    const Triangle& t = coarse.mesh.triangles[place.triangle];
+    Vec2 sum = Vec2::Zero();
+    for (int k = 0; k < 3; ++k) sum += place.weights[k] * coarse_uvs[t[k]];
+    out.push_back(sum);
+  }
+  return out;
+}
+
+/// Energy of the elements around a vertex, finite for flipped ones where epsilon > 0.
+double local_energy(const Patch& patch, int v, double epsilon) {
+  double sum = 0;
+  for (const int e : patch.around[v])
+    sum += patch.objective.weight[e] *
+           (epsilon > 0 ? foldover_energy(patch.jacobian_of(e), epsilon) : symmetric_dirichlet(patch.jacobian_of(e)));
+  return sum;
+}
+
+/// One damped Newton step of one vertex.
+void relax(Patch& patch, int v, double epsilon) {
+  Vec2 gradient = Vec2::Zero();
+  Mat2 hessian = Mat2::Zero();
+  bool flipped = false;
+  for (const int e : patch.around[v]) flipped = flipped || !(patch.jacobian_of(e).determinant() > 0);
+  if (!flipped) epsilon = 0;
+  for (const int e : patch.around[v]) {
+    const Triangle& t = patch.elements[e];
+    const auto& x = patch.x;
+    const TriangleDerivatives d =
+        epsilon > 0 ? foldover_derivatives(patch.objective.inverse_edges[e], x[t[0]], x[t[1]], x[t[2]], epsilon)
+                    : symmetric_dirichlet_derivatives(patch.objective.inverse_edges[e], x[t[0]], x[t[1]], x[t[2]]);
+    const auto k = std::find(t.begin(), t.end(), v) - t.begin();
+    gradient += patch.objective.weight[e] * d.gradient[k];
+    hessian += patch.objective.weight[e] * d.diagonal[k];
+  }
+  const Vec2 step = -hessian.inverse() * gradient;
+  if (!step.allFinite()) return;
+  const Vec2 from = patch.x[v];
+  const double before = local_energy(patch, v, epsilon);
+  const double fraction = line_search(1, before, gradient.dot(step), [&](double part) {
+    patch.x[v] = from + part * step;
+    return local_energy(patch, v, epsilon);
+  });
+  if (fraction == 0) patch.x[v] = from;
+}
+
+/// The vertices of these elements that may move; with `ring`, of those around them too.
+std::vector<int> movable(const Patch& patch, const std::vector<int>& elements, bool ring) {
+  std::vector<int> out;
+  const auto add = [&](int e) { out.insert(out.end(), patch.elements[e].begin(), patch.elements[e].end()); };
+  for (const int e : elements) {
+    add(e);
+    if (!ring) continue;
+    for (const int v : patch.elements[e]) std::for_each(patch.around[v].begin(), patch.around[v].end(), add);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  std::erase_if(out, [&](int v) { return patch.fixed[v]; });
+  return out;
+}
+
+/// True once no element has more than so many times its first energy.
+bool mend(const std::vector<double>& first_energy, Patch& patch) {
+  const auto exceeds = [&](int e, double factor) { return !(patch.energy_of(e) <= factor * first_energy[e]); };
+  std::vector<int> bad;
+  for (int e = 0; e < static_cast<int>(patch.elements.size()); ++e) {
+    if (exceeds(e, kBad)) bad.push_back(e);
+  }
+  if (bad.empty()) return true;
+  patch.around.resize(patch.x.size());
+  for (int e = 0; e < static_cast<int>(patch.elements.size()); ++e) {
+    for (const int v : patch.elements[e]) patch.around[v].push_back(e);
+  }
+  double epsilon = 0.3;
+  for (int sweep = 0; sweep < kMostSweeps && !bad.empty(); ++sweep, epsilon = std::max(kLeastBlur, 0.7 * epsilon)) {
+    for (const int v : movable(patch, bad, sweep >= kOwnSweeps)) relax(patch, v, epsilon);
+    std::erase_if(bad, [&](int e) { return !exceeds(e, kMended); });
+  }
+  return bad.empty();
+}
+
+std::vector<double> energies(const Patch& patch) {
+  std::vector<double> out;
+  for (int e = 0; e < static_cast<int>(patch.elements.size()); ++e) out.push_back(patch.energy_of(e));
+  return out;
+}
+
+}  // namespace
+
+std::optional<std::vector<Vec2>> prolong(const Chart& chart, const CoarseChart& coarse, const std::vector<Vec2>& coarse_uvs,
+                                         const ChartObjective& fine, double unit) {
+  Patch patch{.elements = elements_of(chart), .objective = fine, .x = chart.uvs, .fixed = {}, .around = {}};
+  for (Vec2& x : patch.x) x /= unit;
+  const std::vector<double> first_energy = energies(patch);
+  patch.x = interpolated(coarse, coarse_uvs);
+  for (Vec2& x : patch.x) x /= unit;
+  patch.fixed.assign(chart.vertex_count(), 0);
+  for (const std::vector<int>& loop : chart.boundary_loops) {
+    for (const int v : loop) patch.fixed[v] = 1;
+  }
+  if (!mend(first_energy, patch)) return std::nullopt;
+  for (Vec2& x : patch.x) x *= unit;
+  return std::move(patch.x);
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,18 @@
+// Which vertices of a chart a coarse mesh keeps: all of the boundary, inside ever fewer away from it.
+#pragma once
+
+#include <vector>
+
+#include "geometry/chart.h"
+
+namespace atlas_refine {
+
+struct Sample {
+  std::vector<int> vertices;  ///< of the chart: the boundary loop by loop, then those inside
+  std::vector<int> near;      ///< per entry of these: an earlier entry that is near it, -1 = none known
+};
+
+/// Vertices inside keep a distance from each other that grows from the boundary's edge lengths up to `spacing`.
+Sample sample_vertices(const Chart& chart, double spacing);
+
+}  // namespace atlas_refine
