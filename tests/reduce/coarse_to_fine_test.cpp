@@ -25,8 +25,9 @@ void expect_the_same_optimum(const std::vector<Chart>& charts, const SqueezeOpti
   const std::vector<Chart> after = testing::with_uvs(charts, fast.outcome.uvs);
   testing::expect_certified(after);
   EXPECT_GE(testing::packing_efficiency(after), options.pe_bound);
-  if (charts.size() > 1)
+  if (charts.size() > 1) {
     EXPECT_GE(gap_between_charts(after), fast.gap.length(testing::box_sides(after)) * (1 - 1e-9));
+  }
 }
 
 TEST(CoarseToFine, EndsAtTheOptimumOfTheDirectSqueeze) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "coarsen/prolong.h"
-#include "measure/distortion.h"
 
 namespace atlas_refine {
 namespace {
@@ -27,9 +26,9 @@ int bending_vertices(const std::vector<Chart>& charts, const Freedoms& freedom) 
   return count;
 }
 
-double bending_area(const std::vector<Chart>& charts, const Freedoms& freedom) {
+double surface_of_bending(const std::vector<Chart>& charts, const Freedoms& freedom) {
   double area = 0;
-  for (std::size_t c = 0; c < charts.size(); ++c) area += bends(freedom, c) ? uv_area(charts[c]) : 0;
+  for (std::size_t c = 0; c < charts.size(); ++c) area += bends(freedom, c) ? charts[c].surface.area() : 0;
   return area;
 }
 
@@ -41,7 +40,7 @@ double edge_length(double area, double triangles) { return std::sqrt(4 / std::sq
 std::optional<CoarseAtlas> coarsen(const std::vector<Chart>& charts, const Objective& objective, const Freedoms& freedom) {
   const int vertices = bending_vertices(charts, freedom);
   if (vertices < kSmall) return std::nullopt;
-  const double spacing = edge_length(bending_area(charts, freedom), kInside);
+  const double spacing = edge_length(surface_of_bending(charts, freedom), kInside);
   CoarseAtlas out{.charts = {}, .objective = {.unit = objective.unit}};
   int kept = vertices;
   for (std::size_t c = 0; c < charts.size(); ++c) {

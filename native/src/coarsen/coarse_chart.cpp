@@ -40,12 +40,34 @@ std::vector<char> boundary_flags(const Chart& chart) {
   return flags;
 }
 
-/// Sides of triangles with all corners on the boundary: those triangles stay, or nothing inside could keep them from flipping.
-std::vector<std::array<int, 2>> chords(const Chart& chart, const std::vector<int>& entry) {
-  const std::vector<char> on_boundary = boundary_flags(chart);
+/// Vertices that stay: the boundary, and where the chart is so narrow that a vertex inside joins several stretches of it. What
+/// the boundary does there nothing else could follow.
+std::vector<char> held_vertices(const Chart& chart) {
+  std::vector<char> held = boundary_flags(chart);
+  std::vector<int> next(chart.vertex_count(), -1);
+  for (const std::vector<int>& loop : chart.boundary_loops) {
+    for (std::size_t k = 0; k < loop.size(); ++k) next[loop[k]] = loop[(k + 1) % loop.size()];
+  }
+  // Around a vertex inside every neighbour comes in two triangles: neighbours on the boundary less boundary edges are stretches.
+  std::vector<int> neighbours(chart.vertex_count(), 0), edges(chart.vertex_count(), 0);
+  for (const Triangle& t : chart.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[(k + 1) % 3], b = t[(k + 2) % 3];
+      neighbours[t[k]] += held[a] + held[b];
+      if (held[a] && next[a] == b) ++edges[t[k]];
+    }
+  }
+  for (int v = 0; v < chart.vertex_count(); ++v) {
+    if (neighbours[v] / 2 - edges[v] > 1) held[v] = 1;
+  }
+  return held;
+}
+
+/// Sides of triangles with all corners held: those triangles stay too.
+std::vector<std::array<int, 2>> held_sides(const Chart& chart, const std::vector<char>& held, const std::vector<int>& entry) {
   std::vector<std::array<int, 2>> out;
   for (const Triangle& t : chart.triangles) {
-    if (!on_boundary[t[0]] || !on_boundary[t[1]] || !on_boundary[t[2]]) continue;
+    if (!held[t[0]] || !held[t[1]] || !held[t[2]]) continue;
     for (int k = 0; k < 3; ++k) out.push_back({entry[t[k]], entry[t[(k + 1) % 3]]});
   }
   return out;
@@ -123,7 +145,8 @@ Surface surface_of(const Chart& chart, const CoarseChart& coarse) {
 }  // namespace
 
 std::optional<CoarseChart> coarsen(const Chart& chart, double spacing) {
-  Sample sample = sample_vertices(chart, spacing);
+  const std::vector<char> held = held_vertices(chart);
+  Sample sample = sample_vertices(chart, held, spacing);
   if (static_cast<double>(sample.vertices.size()) > kMostKept * chart.vertex_count()) return std::nullopt;
   CoarseChart out;
   out.kept = std::move(sample.vertices);
@@ -132,7 +155,7 @@ std::optional<CoarseChart> coarsen(const Chart& chart, double spacing) {
   out.mesh.boundary_loops = renamed(chart.boundary_loops, entry);
   out.mesh.number = chart.number;
   auto triangles = triangulate_region(
-      {out.mesh.uvs, out.mesh.boundary_loops, chords(chart, entry), std::move(sample.near)});
+      {out.mesh.uvs, out.mesh.boundary_loops, held_sides(chart, held, entry), std::move(sample.near)});
   if (!triangles) return std::nullopt;
   out.mesh.triangles = std::move(*triangles);
   out.mesh.triangle_faces.assign(out.mesh.triangles.size(), chart.triangle_faces.front());

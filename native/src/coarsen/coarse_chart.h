@@ -16,7 +16,7 @@ struct CoarseChart {
   std::vector<std::array<int, 3>> neighbours;  ///< Locator::neighbours
 };
 
-/// Vertices inside are about `spacing` apart, nearer near the boundary. Nothing where less than half of the chart's vertices
+/// Vertices inside are about `spacing` apart on the surface, nearer near the boundary. Nothing where less than half of the chart's vertices
 /// would be saved. The chart must be free of flips and crossings.
 std::optional<CoarseChart> coarsen(const Chart& chart, double spacing);
 

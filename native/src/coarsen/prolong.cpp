@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "geometry/guards.h"
 #include "solve/foldover.h"
@@ -16,7 +18,9 @@ constexpr double kBad = 3;         // times its energy before: an element that h
 constexpr double kMended = 6;      // and down to this it is mended
 constexpr int kMostSweeps = 40;    // over the vertices of bad elements
 constexpr int kOwnSweeps = 6;      // without those around them
-constexpr double kLeastBlur = 1e-3;  // epsilon of the energy for flipped elements
+constexpr double kFirstBlur = 0.3;   // epsilon of the energy for flipped elements,
+constexpr double kFocus = 0.7;       // falls by this factor in every sweep,
+constexpr double kLeastBlur = 1e-3;  // to this
 
 /// Elements of a chart in solver units.
 struct Patch {
@@ -102,7 +106,7 @@ std::vector<int> movable(const Patch& patch, const std::vector<int>& elements, b
   return out;
 }
 
-/// True once no element has more than so many times its first energy.
+/// Of elements with too much of their first energy; true where none is left flipped.
 bool mend(const std::vector<double>& first_energy, Patch& patch) {
   const auto exceeds = [&](int e, double factor) { return !(patch.energy_of(e) <= factor * first_energy[e]); };
   std::vector<int> bad;
@@ -114,12 +118,14 @@ bool mend(const std::vector<double>& first_energy, Patch& patch) {
   for (int e = 0; e < static_cast<int>(patch.elements.size()); ++e) {
     for (const int v : patch.elements[e]) patch.around[v].push_back(e);
   }
-  double epsilon = 0.3;
-  for (int sweep = 0; sweep < kMostSweeps && !bad.empty(); ++sweep, epsilon = std::max(kLeastBlur, 0.7 * epsilon)) {
+  double epsilon = kFirstBlur;
+  if (getenv("CTRACE")) fprintf(stderr, "bad %zu", bad.size());
+  for (int sweep = 0; sweep < kMostSweeps && !bad.empty(); ++sweep, epsilon = std::max(kLeastBlur, kFocus * epsilon)) {
     for (const int v : movable(patch, bad, sweep >= kOwnSweeps)) relax(patch, v, epsilon);
     std::erase_if(bad, [&](int e) { return !exceeds(e, kMended); });
   }
-  return bad.empty();
+  if (getenv("CTRACE")) fprintf(stderr, " left %zu flipped %zu\n", bad.size(), (std::size_t)std::count_if(bad.begin(), bad.end(), [&](int e) { return !std::isfinite(patch.energy_of(e)); }));
+  return std::none_of(bad.begin(), bad.end(), [&](int e) { return !std::isfinite(patch.energy_of(e)); });
 }
 
 std::vector<double> energies(const Patch& patch) {

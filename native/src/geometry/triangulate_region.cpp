@@ -7,6 +7,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace atlas_refine {
 namespace {
@@ -34,8 +35,11 @@ bool insert_points(const Region& region, Delaunay& delaunay, Handles& handles) {
   return static_cast<int>(delaunay.number_of_vertices()) == count && delaunay.dimension() == 2;
 }
 
-/// False where constraints cross each other or run through points.
-bool insert_edges(const std::vector<std::array<int, 2>>& edges, const Handles& handles, Delaunay& delaunay) {
+/// False where constraints cross each other or run through points. To insert one twice would count as a crossing.
+bool insert_edges(std::vector<std::array<int, 2>> edges, const Handles& handles, Delaunay& delaunay) {
+  for (std::array<int, 2>& edge : edges) std::sort(edge.begin(), edge.end());
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   try {
     for (const auto& [a, b] : edges) delaunay.insert_constraint(handles[a], handles[b]);
   } catch (const Delaunay::Intersection_of_constraints_exception&) {
@@ -84,7 +88,7 @@ std::optional<std::vector<Triangle>> triangulate_region(const Region& region) {
       edges.push_back({loop[k], next[loop[k]]});
     }
   }
-  if (!insert_edges(edges, handles, delaunay)) return std::nullopt;
+  if (!insert_edges(std::move(edges), handles, delaunay)) return std::nullopt;
   mark_sides(next, delaunay);
   std::vector<Triangle> triangles;
   for (auto face : delaunay.finite_face_handles()) {

@@ -38,11 +38,6 @@ void flatten(const std::vector<Chart>& charts, ReduceModel& model) {
   model.first_vertex.push_back(count);
 }
 
-double range_of(const Vec2& box, const ReduceModel& model) {
-  const auto pieces = static_cast<double>(model.first_vertex.size() - 1);
-  return std::min(kRangeFraction * box.norm(), kRangeOfChart * std::sqrt(box.prod() / pieces));
-}
-
 /// A start in a frame stays where it is.
 void place_in_frame(const Vec2& frame, ReduceModel& model) {
   model.start.box = frame / model.objective.unit;
@@ -50,15 +45,16 @@ void place_in_frame(const Vec2& frame, ReduceModel& model) {
 }
 
 /// So does one that goes on in a box.
-void place_in_box(const Vec2& box, ReduceModel& model) {
-  model.start.box = box / model.objective.unit;
-  model.range = range_of(model.start.box, model);
+void place_in_box(const WarmStart& warm, ReduceModel& model) {
+  model.start.box = warm.box / model.objective.unit;
+  model.range = warm.range / model.objective.unit;
 }
 
 void place_start(ReduceModel& model) {
   const Box tight = box_of_points(model.start.x);
   const Vec2 size = box_of_aspect(tight, model.aspect).size();
-  model.range = range_of(size, model);
+  const auto pieces = static_cast<double>(model.first_vertex.size() - 1);
+  model.range = std::min(kRangeFraction * size.norm(), kRangeOfChart * std::sqrt(size.prod() / pieces));
   model.open_unit = model.gap.unit == Gap::Unit::BoxDiagonal ? size.norm() : size.maxCoeff();
   // The box grows a little, so that no chart touches a wall, and by less than kStartGap: the gap follows it.
   const Vec2 slack = model.aspect == 0 ? Vec2(Vec2::Constant(0.5 * model.range)) : Vec2(0.5 * kBoxGrowth * size);
@@ -141,10 +137,10 @@ ReduceModel make_model(const ReduceProblem& problem) {
   model.boundary = make_boundary(problem.charts, model.first_vertex);
   for (double& arc : model.boundary.arc) arc /= model.objective.unit;
   for (double& length : model.boundary.loop_length) length /= model.objective.unit;
-  if (problem.frame.x() > 0)
+  if (problem.warm)
+    place_in_box(*problem.warm, model);
+  else if (problem.frame.x() > 0)
     place_in_frame(problem.frame, model);
-  else if (problem.warm)
-    place_in_box(problem.warm->box, model);
   else
     place_start(model);
   model.node.resize(model.vertex_count());

@@ -227,8 +227,8 @@ std::vector<double> energy_of_triangles(const Task& task, const std::vector<Vec2
 ReduceResult result_of(const Task& task, const Iterate& best, ReduceStatus status, double stiffness, int iterations) {
   const ReduceModel& model = task.model;
   ReduceResult out{.uvs = by_piece(model, best.state.x, model.objective.unit), .status = status};
-  out.box = model.objective.unit * best.state.box;
-  if (task.problem.frame.x() > 0) out.frame = out.box;
+  out.end = {model.objective.unit * best.state.box, model.objective.unit * model.range, best.price};
+  if (task.problem.frame.x() > 0) out.frame = out.end.box;
   out.reached = task.holds_bound(best);
   out.within_limit = task.within_limit(best);
   out.pe = best.pe;

@@ -17,7 +17,8 @@ inline constexpr double kStartGap = 1.006;
 /// What a start that ended a problem like this one brings along.
 struct WarmStart {
   Vec2 box = Vec2::Zero();  ///< [0, box.x] x [0, box.y], which the charts lie in
-  double price = 0;
+  double range = 0;         ///< the barrier was felt so far beyond the gap
+  double price = 0;         ///< as ReduceResult::price
 };
 
 struct ReduceProblem {
@@ -63,7 +64,7 @@ using ReduceMonitor = std::function<void(const ReduceProgress&)>;
 struct ReduceResult {
   std::vector<std::vector<Vec2>> uvs;  ///< one array per chart, in the start's units
   Vec2 frame = Vec2::Zero();           ///< where the problem has one: what it has become
-  Vec2 box = Vec2::Zero();             ///< where there is one: [0, box.x] x [0, box.y] holds the charts
+  WarmStart end;                       ///< for a problem that goes on from here
   ReduceStatus status = ReduceStatus::Converged;
   bool reached = false;  ///< PE of the frame, or of the charts' own bounding box (of the asked aspect), is at least the target
   bool within_limit = true;  ///< E_d is at most max_distortion

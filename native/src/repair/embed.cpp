@@ -5,13 +5,15 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
 #include "geometry/tutte.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
-#include "reduce/reduce.h"
+#include "reduce/coarse_to_fine.h"
 #include "repair/untangle.h"
 #include "solve/symmetric_dirichlet.h"
 
@@ -22,6 +24,7 @@ namespace {
 constexpr double kGapForLargerBox = 1.5;
 constexpr double kGentle = 10;         // E_d of a start that needs no evening out
 constexpr double kCollapsed = 100;     // E_d above which an embedding is no use
+static const int kCoarseRounds = getenv("EROUNDS") ? atoi(getenv("EROUNDS")) : 2;  // the second one's shapes are averaged where the chart is nearly at its optimum
 constexpr double kLeastWeight = 1e-3;  // of a triangle, as a fraction of the mean one
 
 /// The triangles on the surface's shapes, the outer boundary where it is, every other loop filled by a fan around a new vertex.
@@ -106,12 +109,21 @@ std::optional<Chart> embed(const Chart& guarded, int threads, Monitor& monitor) 
   std::optional<Chart> start = on_disk(chart, threads, monitor);
   if (!start) return std::nullopt;
   if (Chart better = stretched(*start); certify_charts({better}).valid()) start = std::move(better);
-  const std::vector<Chart> charts = {*start};
-  const ReduceProblem problem{.charts = charts, .gap = {.value = kGapForLargerBox * Gap{}.value}, .threads = threads};
-  ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
-    // E_d falls from far above to near 1: its logarithm tells how far the way is.
+  // E_d falls from far above to near 1: its logarithm tells how far the way is.
+  const auto report = [&](const ReduceProgress& progress) {
     monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
-  });
+  };
+  const Gap wide = {.value = kGapForLargerBox * Gap{}.value};
+  const double start_diagonal = uv_box({*start}).diagonal();
+  std::vector<Chart> charts = {std::move(*start)};
+  const auto gap_in = [&](const std::vector<Chart>& now) { return Gap{.value = wide.value * start_diagonal / uv_box(now).diagonal()}; };
+  for (int round = 0; round < kCoarseRounds; ++round) {
+    auto nearer = reduced_coarsely({.charts = charts, .gap = gap_in(charts), .threads = threads}, report);
+    if (!nearer) break;
+    charts = std::move(*nearer);
+  }
+  ReduceResult result = reduce_distortion({.charts = charts, .gap = gap_in(charts), .threads = threads}, report);
+  if (getenv("CTRACE")) fprintf(stderr, "CTE fine its %d first %.5f E %.6f status %d\n", result.iterations, result.first_energy, result.energy, (int)result.status);
   if (!(result.energy <= kCollapsed)) return std::nullopt;
   // Polygons that are convex in the end are guarded from here on.
   Chart embedded = guarded;
