@@ -1,21 +1,22 @@
 // Sampling, triangulation and location of one chart.
 #include "coarsen/coarse_chart.h"
 
-#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "coarsen/sample_vertices.h"
+#include "geometry/boundary.h"
 #include "geometry/rest_triangle.h"
 #include "geometry/triangulate_region.h"
-#include "solve/symmetric_dirichlet.h"
+#include "measure/distortion.h"
 
 namespace atlas_refine {
 namespace {
 
 constexpr double kMostKept = 0.5;  // of the vertices: else there is little to gain
+constexpr double kFlat = 1e-6;     // triangles are no flatter
 
 /// Per vertex of the chart its entry in `kept`, -1 where it has none.
 std::vector<int> entries_of(const Chart& chart, const std::vector<int>& kept) {
@@ -102,42 +103,33 @@ std::vector<Place> places_of(const Chart& chart, const CoarseChart& coarse, cons
   return places;
 }
 
-/// The triangle of the chart beside each boundary edge, keyed by the edge's ends.
-std::map<std::pair<int, int>, int> border_triangles(const Chart& chart) {
-  const std::vector<char> on_boundary = boundary_flags(chart);
-  std::map<std::pair<int, int>, int> out;
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = chart.triangles[t][k], b = chart.triangles[t][(k + 1) % 3];
-      if (on_boundary[a] && on_boundary[b]) out.emplace(std::pair(a, b), static_cast<int>(t));
-    }
-  }
-  return out;
+/// The triangle with sides (0, 1), (1, 2), (2, 0) of these lengths.
+RestTriangle with_sides(const std::array<double, 3>& lengths) {
+  const double along = (lengths[0] * lengths[0] + lengths[2] * lengths[2] - lengths[1] * lengths[1]) / (2 * lengths[0]);
+  const double height = std::sqrt(std::max(lengths[2] * lengths[2] - along * along, kFlat * lengths[0] * lengths[0]));
+  return rest_from_plane({0, 0}, {lengths[0], 0}, {along, height}, 1);
 }
 
-Mat2 edges_of(const std::vector<Vec2>& uvs, const Triangle& t) {
-  Mat2 edges;
-  edges << uvs[t[1]] - uvs[t[0]], uvs[t[2]] - uvs[t[0]];
-  return edges;
-}
-
-/// Triangles beside the boundary are shaped as the chart's own there are, so that boundary edges keep their lengths; of others
-/// nobody asks.
+/// Boundary edges have their lengths on the surface. Of other sides nobody asks: where lengths do not close to a triangle, they
+/// give way.
 Surface surface_of(const Chart& chart, const CoarseChart& coarse) {
-  const auto border = border_triangles(chart);
-  const Mat2 scale = Mat2::Identity() * std::sqrt(chart.surface.area());
+  const auto on_surface = surface_lengths(chart);
+  const double scale = std::sqrt(chart.surface.area() / uv_area({coarse.mesh}));
   std::vector<RestTriangle> shapes;
   for (const Triangle& t : coarse.mesh.triangles) {
-    const Mat2 edges = edges_of(coarse.mesh.uvs, t);
-    Mat2 map = scale;
+    std::array<double, 3> lengths = {};
+    std::array<bool, 3> known = {};
     for (int k = 0; k < 3; ++k) {
-      const auto beside = border.find({coarse.kept[t[k]], coarse.kept[t[(k + 1) % 3]]});
-      if (beside == border.end()) continue;
-      const Triangle& own = chart.triangles[beside->second];
-      map = edges_of(chart.uvs, own) * chart.surface[beside->second].inverse_edges;
+      const int a = t[k], b = t[(k + 1) % 3];
+      const auto own = on_surface.find({coarse.kept[a], coarse.kept[b]});
+      known[k] = own != on_surface.end();
+      lengths[k] = known[k] ? own->second : scale * (coarse.mesh.uvs[b] - coarse.mesh.uvs[a]).norm();
     }
-    const Mat2 inverse = edges.inverse() * map;
-    shapes.push_back({inverse, 0.5 / inverse.determinant()});
+    for (int k = 0; k < 3; ++k) {
+      const double a = lengths[(k + 1) % 3], b = lengths[(k + 2) % 3];
+      if (!known[k]) lengths[k] = std::clamp(lengths[k], std::abs(a - b) + kFlat * (a + b), (1 - kFlat) * (a + b));
+    }
+    shapes.push_back(with_sides(lengths));
   }
   return Surface(std::move(shapes));
 }

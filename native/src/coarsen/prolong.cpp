@@ -14,8 +14,7 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kBad = 3;         // times its energy before: an element that has to be mended,
-constexpr double kMended = 6;      // and down to this it is mended
+constexpr double kBad = 2;         // times its energy before: an element that has to be mended
 constexpr int kMostSweeps = 40;    // over the vertices of bad elements
 constexpr int kOwnSweeps = 6;      // without those around them
 constexpr double kFirstBlur = 0.3;   // epsilon of the energy for flipped elements,
@@ -108,10 +107,10 @@ std::vector<int> movable(const Patch& patch, const std::vector<int>& elements, b
 
 /// Of elements with too much of their first energy; true where none is left flipped.
 bool mend(const std::vector<double>& first_energy, Patch& patch) {
-  const auto exceeds = [&](int e, double factor) { return !(patch.energy_of(e) <= factor * first_energy[e]); };
+  const auto is_bad = [&](int e) { return !(patch.energy_of(e) <= kBad * first_energy[e]); };
   std::vector<int> bad;
   for (int e = 0; e < static_cast<int>(patch.elements.size()); ++e) {
-    if (exceeds(e, kBad)) bad.push_back(e);
+    if (is_bad(e)) bad.push_back(e);
   }
   if (bad.empty()) return true;
   patch.around.resize(patch.x.size());
@@ -119,12 +118,12 @@ bool mend(const std::vector<double>& first_energy, Patch& patch) {
     for (const int v : patch.elements[e]) patch.around[v].push_back(e);
   }
   double epsilon = kFirstBlur;
-  if (getenv("CTRACE")) fprintf(stderr, "bad %zu", bad.size());
+  const auto nb = bad.size();
   for (int sweep = 0; sweep < kMostSweeps && !bad.empty(); ++sweep, epsilon = std::max(kLeastBlur, kFocus * epsilon)) {
     for (const int v : movable(patch, bad, sweep >= kOwnSweeps)) relax(patch, v, epsilon);
-    std::erase_if(bad, [&](int e) { return !exceeds(e, kMended); });
+    std::erase_if(bad, [&](int e) { return !is_bad(e); });
   }
-  if (getenv("CTRACE")) fprintf(stderr, " left %zu flipped %zu\n", bad.size(), (std::size_t)std::count_if(bad.begin(), bad.end(), [&](int e) { return !std::isfinite(patch.energy_of(e)); }));
+  if (getenv("CTRACE")) fprintf(stderr, "bad %zu left %zu flipped %zu\n", nb, bad.size(), (std::size_t)std::count_if(bad.begin(), bad.end(), [&](int e) { return !std::isfinite(patch.energy_of(e)); }));
   return std::none_of(bad.begin(), bad.end(), [&](int e) { return !std::isfinite(patch.energy_of(e)); });
 }
 

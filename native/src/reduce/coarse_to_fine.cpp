@@ -11,7 +11,6 @@
 namespace atlas_refine {
 namespace {
 
-// Coarse charts need not come nearer to their optimum than it is to the fine one.
 constexpr double kCoarseChange = 2e-3;
 constexpr double kCoarseNegligible = 1e-6;
 static double env(const char* n, double d) { const char* s = getenv(n); return s ? atof(s) : d; }
@@ -35,8 +34,6 @@ std::optional<ReduceResult> polish(const std::vector<Chart>& start, const Object
                               .gap = squeezed.gap,
                               .box_aspect = options.box_aspect,
                               .pe_target = options.pe_bound,
-                              .least_change = options.least_change,
-                              .negligible = options.negligible,
                               .threads = options.threads,
                               .freedom = options.freedom,
                               .frame = squeezed.outcome.frame,
@@ -55,11 +52,8 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   if (!coarse) return std::nullopt;
   std::vector<PlacedCharts> coarse_starts;
   for (const PlacedCharts& start : starts) coarse_starts.push_back(restricted(*coarse, start));
-  SqueezeOptions roughly = options;
-  roughly.least_change = env("CCHANGE", kCoarseChange);
-  roughly.negligible = env("CNEG", kCoarseNegligible);
   const double t1 = now();
-  Squeezed out = squeeze_directly(coarse_starts, coarse->objective, roughly, monitor);
+  Squeezed out = squeeze_directly(coarse_starts, coarse->objective, options, monitor);
   if (getenv("CTRACE")) fprintf(stderr, "CTF mesh %.3f coarse its %d reached %d E %.6f gap %g t %.3f\n", t1 - t0, out.iterations, out.outcome.reached, out.outcome.energy, out.gap.value, now() - t1);
   if (!holds(out.outcome)) return std::nullopt;
   const auto start = carried_over(*coarse, charts, objective, out.outcome.uvs);
