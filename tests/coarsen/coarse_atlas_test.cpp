@@ -108,9 +108,8 @@ TEST(CoarseAtlas, TrianglesThatTurnOverOnTheWayBackAreMended) {
   // One inner vertex goes most of the way to the nearest side of its star.
   const auto& neighbours = bent[0].triangles;
   const int inner = bent[0].vertex_count() - 1;
-  const auto star = std::find_if(neighbours.begin(), neighbours.end(), [&](const Triangle& t) {
-    return std::find(t.begin(), t.end(), inner) != t.end();
-  });
+  const auto star = std::find_if(neighbours.begin(), neighbours.end(),
+                                 [&](const Triangle& t) { return std::find(t.begin(), t.end(), inner) != t.end(); });
   Vec2 middle = Vec2::Zero();
   for (const int v : *star) middle += 0.5 * (v == inner ? Vec2(Vec2::Zero()) : bent[0].uvs[v]);
   bent[0].uvs[inner] += 0.9 * (middle - bent[0].uvs[inner]);

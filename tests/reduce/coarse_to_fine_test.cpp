@@ -30,6 +30,17 @@ void expect_the_same_optimum(const std::vector<Chart>& charts, const SqueezeOpti
   }
 }
 
+TEST(CoarseToFine, AnEndIsAStartThatIsThereAlready) {
+  std::vector<Chart> charts = charts_of(shapes::mesh(shapes::u_shape(), 0.05));
+  const ReduceResult first = reduce_distortion({.charts = charts, .gap = Gap{}, .pe_target = 0.8});
+  charts[0].uvs = first.uvs[0];
+  const ReduceResult second = reduce_distortion({.charts = charts, .gap = Gap{}, .pe_target = 0.8, .warm = first.end});
+  EXPECT_EQ(second.status, ReduceStatus::Converged);
+  EXPECT_LE(second.iterations, 5);
+  EXPECT_NEAR(second.energy, first.energy, 1e-5);
+  EXPECT_TRUE(second.reached);
+}
+
 TEST(CoarseToFine, EndsAtTheOptimumOfTheDirectSqueeze) {
   expect_the_same_optimum(charts_of(shapes::mesh(shapes::u_shape(), kFine)), options_at(0.8));
   expect_the_same_optimum(charts_of(shapes::quad_band(160, 24)), options_at(0.7));
@@ -37,10 +48,11 @@ TEST(CoarseToFine, EndsAtTheOptimumOfTheDirectSqueeze) {
 
 TEST(CoarseToFine, TakesHolesAndSeveralCharts) {
   expect_the_same_optimum(charts_of(shapes::mesh(shapes::ring(), kFine)), options_at(0.7));
-  expect_the_same_optimum(charts_of(shapes::combine({shapes::mesh(shapes::c_shape(), kFine),
-                                                     shapes::mesh(shapes::transformed(shapes::star(), 1, 0.3, {1.2, 0.5}), kFine),
-                                                     shapes::mesh(shapes::transformed(shapes::disk(0.1), 1, 0, {0.5, 1.4}), 0.05)})),
-                          options_at(0.6));
+  expect_the_same_optimum(
+      charts_of(shapes::combine({shapes::mesh(shapes::c_shape(), kFine),
+                                 shapes::mesh(shapes::transformed(shapes::star(), 1, 0.3, {1.2, 0.5}), kFine),
+                                 shapes::mesh(shapes::transformed(shapes::disk(0.1), 1, 0, {0.5, 1.4}), 0.05)})),
+      options_at(0.6));
 }
 
 TEST(CoarseToFine, KeepsTheShapesOfChartsThatOnlyMove) {

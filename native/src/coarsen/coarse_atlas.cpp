@@ -8,9 +8,9 @@
 namespace atlas_refine {
 namespace {
 
-constexpr int kSmall = 1500;        // vertices of an atlas that is squeezed as it is
-constexpr double kInside = 1000;    // triangles that all charts together would have far from their boundaries
-constexpr double kMostKept = 0.6;   // of all vertices of charts that bend: else there is little to gain
+constexpr int kSmall = 1500;       // vertices of an atlas that is squeezed as it is
+constexpr double kInside = 1000;   // triangles that all charts together would have far from their boundaries
+constexpr double kMostKept = 0.6;  // of all vertices of charts that bend: else there is little to gain
 
 std::size_t element_count(const Chart& chart) { return chart.triangles.size() + chart.guards.size(); }
 
@@ -83,7 +83,8 @@ std::optional<std::vector<std::vector<Vec2>>> prolonged(const CoarseAtlas& coars
       out.push_back(coarse_uvs[c]);
       continue;
     }
-    auto uvs = prolong(fine[c], *coarse.charts[c], coarse_uvs[c], slice(objective, first, element_count(fine[c])), objective.unit);
+    auto uvs =
+        prolong(fine[c], *coarse.charts[c], coarse_uvs[c], slice(objective, first, element_count(fine[c])), objective.unit);
     if (!uvs) return std::nullopt;
     out.push_back(std::move(*uvs));
   }

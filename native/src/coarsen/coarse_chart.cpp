@@ -146,8 +146,8 @@ std::optional<CoarseChart> coarsen(const Chart& chart, double spacing) {
   for (const int v : out.kept) out.mesh.uvs.push_back(chart.uvs[v]);
   out.mesh.boundary_loops = renamed(chart.boundary_loops, entry);
   out.mesh.number = chart.number;
-  auto triangles = triangulate_region(
-      {out.mesh.uvs, out.mesh.boundary_loops, held_sides(chart, held, entry), std::move(sample.near)});
+  auto triangles =
+      triangulate_region({out.mesh.uvs, out.mesh.boundary_loops, held_sides(chart, held, entry), std::move(sample.near)});
   if (!triangles) return std::nullopt;
   out.mesh.triangles = std::move(*triangles);
   out.mesh.triangle_faces.assign(out.mesh.triangles.size(), chart.triangle_faces.front());

@@ -10,14 +10,14 @@
 namespace atlas_refine {
 
 struct CoarseChart {
-  Chart mesh;                                   ///< without guards; its surface tells the lengths of the boundary
-  std::vector<int> kept;                        ///< per vertex: the fine chart's vertex it is
-  std::vector<Place> places;                    ///< per vertex of the fine chart: where it lies
+  Chart mesh;                                  ///< without guards; its surface tells the lengths of the boundary
+  std::vector<int> kept;                       ///< per vertex: the fine chart's vertex it is
+  std::vector<Place> places;                   ///< per vertex of the fine chart: where it lies
   std::vector<std::array<int, 3>> neighbours;  ///< Locator::neighbours
 };
 
-/// Vertices inside are about `spacing` apart on the surface, nearer near the boundary. Nothing where less than half of the chart's vertices
-/// would be saved. The chart must be free of flips and crossings.
+/// Vertices inside are about `spacing` apart on the surface, nearer near the boundary. Nothing where less than half of the
+/// chart's vertices would be saved. The chart must be free of flips and crossings.
 std::optional<CoarseChart> coarsen(const Chart& chart, double spacing);
 
 /// The part of an objective that stands for the elements of one chart: its triangles, then its guards.

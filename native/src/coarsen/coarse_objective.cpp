@@ -14,8 +14,8 @@ namespace {
 /// Sums over elements. With J an element's Jacobian from its shape to the UVs, E_d under a further map F is
 /// weight (tr(F J J^T F^T) + tr(F^-T (J J^T)^-1 F^-1)) / 4.
 struct Average {
-  double area = 0;    ///< in the UVs
-  double weight = 0;  ///< of the objective
+  double area = 0;                                     ///< in the UVs
+  double weight = 0;                                   ///< of the objective
   Mat2 square = Mat2::Zero(), inverse = Mat2::Zero();  ///< sums of weight J J^T and of weight (J J^T)^-1
 
   Average& operator+=(const Average& other) {

@@ -24,9 +24,8 @@ std::vector<std::array<int, 3>> neighbours_of(const std::vector<Triangle>& trian
       sides.push_back({low, high, static_cast<int>(t), k});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::pair(a.low, a.high) < std::pair(b.low, b.high);
-  });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return std::pair(a.low, a.high) < std::pair(b.low, b.high); });
   std::vector<std::array<int, 3>> out(triangles.size(), {-1, -1, -1});
   for (std::size_t k = 1; k < sides.size(); ++k) {
     const Side &a = sides[k - 1], &b = sides[k];
@@ -57,9 +56,8 @@ Place Locator::locate(const Vec2& point, int near) const {
     std::array<int, 3> corners = {0, 1, 2};
     std::sort(corners.begin(), corners.end(), [&](int i, int j) { return place.weights[i] < place.weights[j]; });
     if (place.weights[corners[0]] >= kOutside) return place;
-    const auto across = std::find_if(corners.begin(), corners.end(), [&](int k) {
-      return place.weights[k] < kOutside && neighbours_[place.triangle][k] >= 0;
-    });
+    const auto across = std::find_if(corners.begin(), corners.end(),
+                                     [&](int k) { return place.weights[k] < kOutside && neighbours_[place.triangle][k] >= 0; });
     if (across == corners.end()) break;
     place = place_in(neighbours_[place.triangle][*across], point);
   }

@@ -14,9 +14,9 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kBad = 2;         // times its energy before: an element that has to be mended
-constexpr int kMostSweeps = 40;    // over the vertices of bad elements
-constexpr int kOwnSweeps = 6;      // without those around them
+constexpr double kBad = 2;           // times its energy before: an element that has to be mended
+constexpr int kMostSweeps = 40;      // over the vertices of bad elements
+constexpr int kOwnSweeps = 6;        // without those around them
 constexpr double kFirstBlur = 0.3;   // epsilon of the energy for flipped elements,
 constexpr double kFocus = 0.7;       // falls by this factor in every sweep,
 constexpr double kLeastBlur = 1e-3;  // to this
@@ -26,7 +26,7 @@ struct Patch {
   std::vector<Triangle> elements;
   const ChartObjective& objective;
   std::vector<Vec2> x;
-  std::vector<char> fixed;                ///< per vertex
+  std::vector<char> fixed;               ///< per vertex
   std::vector<std::vector<int>> around;  ///< per vertex: its elements
 
   Mat2 jacobian_of(int e) const {
@@ -123,7 +123,9 @@ bool mend(const std::vector<double>& first_energy, Patch& patch) {
     for (const int v : movable(patch, bad, sweep >= kOwnSweeps)) relax(patch, v, epsilon);
     std::erase_if(bad, [&](int e) { return !is_bad(e); });
   }
-  if (getenv("CTRACE")) fprintf(stderr, "bad %zu left %zu flipped %zu\n", nb, bad.size(), (std::size_t)std::count_if(bad.begin(), bad.end(), [&](int e) { return !std::isfinite(patch.energy_of(e)); }));
+  if (getenv("CTRACE"))
+    fprintf(stderr, "bad %zu left %zu flipped %zu\n", nb, bad.size(),
+            (std::size_t)std::count_if(bad.begin(), bad.end(), [&](int e) { return !std::isfinite(patch.energy_of(e)); }));
   return std::none_of(bad.begin(), bad.end(), [&](int e) { return !std::isfinite(patch.energy_of(e)); });
 }
 

@@ -45,9 +45,8 @@ bool insert_edges(std::vector<std::array<int, 2>> edges, const Handles& handles,
   } catch (const Delaunay::Intersection_of_constraints_exception&) {
     return false;
   }
-  return std::all_of(edges.begin(), edges.end(), [&](const std::array<int, 2>& e) {
-    return delaunay.is_edge(handles[e[0]], handles[e[1]]);
-  });
+  return std::all_of(edges.begin(), edges.end(),
+                     [&](const std::array<int, 2>& e) { return delaunay.is_edge(handles[e[0]], handles[e[1]]); });
 }
 
 /// `next`: the vertex after each vertex on its loop, -1 inside.

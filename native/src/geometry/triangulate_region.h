@@ -11,9 +11,9 @@ namespace atlas_refine {
 
 struct Region {
   std::vector<Vec2> points;
-  std::vector<std::vector<int>> loops;      ///< the region on the left of each
-  std::vector<std::array<int, 2>> chords;   ///< edges inside that the triangulation is to have
-  std::vector<int> near;                    ///< per point: one before it that is near, for speed; -1 = none known
+  std::vector<std::vector<int>> loops;     ///< the region on the left of each
+  std::vector<std::array<int, 2>> chords;  ///< edges inside that the triangulation is to have
+  std::vector<int> near;                   ///< per point: one before it that is near, for speed; -1 = none known
 };
 
 /// Triangles of the region, counterclockwise, sorted. Nothing where points coincide, or loops and chords meet between points.

@@ -13,7 +13,10 @@ namespace {
 
 constexpr double kCoarseChange = 2e-3;
 constexpr double kCoarseNegligible = 1e-6;
-static double env(const char* n, double d) { const char* s = getenv(n); return s ? atof(s) : d; }
+static double env(const char* n, double d) {
+  const char* s = getenv(n);
+  return s ? atof(s) : d;
+}
 static double now() { return double(clock()) / CLOCKS_PER_SEC; }
 
 bool holds(const ReduceResult& result) { return result.reached && result.within_limit; }
@@ -38,8 +41,15 @@ std::optional<ReduceResult> polish(const std::vector<Chart>& start, const Object
                               .freedom = options.freedom,
                               .frame = squeezed.outcome.frame,
                               .warm = squeezed.outcome.end};
-  ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) { monitor.report(0.97, progress.pe); if (getenv("CTRACE")) fprintf(stderr, "  pol %d pe %.6f E %.7f price %.4f frac %.3f\n", progress.iteration, progress.pe, progress.energy, progress.price, progress.fraction);});
-  if (getenv("CTRACE")) fprintf(stderr, "CTF polish its %d reached %d E %.6f first %.6f status %d t %.3f\n", result.iterations, result.reached, result.energy, result.first_energy, (int)result.status, now());
+  ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
+    monitor.report(0.97, progress.pe);
+    if (getenv("CTRACE"))
+      fprintf(stderr, "  pol %d pe %.6f E %.7f price %.4f frac %.3f\n", progress.iteration, progress.pe, progress.energy,
+              progress.price, progress.fraction);
+  });
+  if (getenv("CTRACE"))
+    fprintf(stderr, "CTF polish its %d reached %d E %.6f first %.6f status %d t %.3f\n", result.iterations, result.reached,
+            result.energy, result.first_energy, (int)result.status, now());
   if (!holds(result)) return std::nullopt;
   return result;
 }
@@ -54,7 +64,9 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   for (const PlacedCharts& start : starts) coarse_starts.push_back(restricted(*coarse, start));
   const double t1 = now();
   Squeezed out = squeeze_directly(coarse_starts, coarse->objective, options, monitor);
-  if (getenv("CTRACE")) fprintf(stderr, "CTF mesh %.3f coarse its %d reached %d E %.6f gap %g t %.3f\n", t1 - t0, out.iterations, out.outcome.reached, out.outcome.energy, out.gap.value, now() - t1);
+  if (getenv("CTRACE"))
+    fprintf(stderr, "CTF mesh %.3f coarse its %d reached %d E %.6f gap %g t %.3f\n", t1 - t0, out.iterations, out.outcome.reached,
+            out.outcome.energy, out.gap.value, now() - t1);
   if (!holds(out.outcome)) return std::nullopt;
   const auto start = carried_over(*coarse, charts, objective, out.outcome.uvs);
   if (!start) return std::nullopt;
@@ -83,8 +95,11 @@ std::optional<std::vector<Chart>> reduced_coarsely(const ReduceProblem& problem,
                               .freedom = problem.freedom};
   const double t1 = now();
   const ReduceResult result = reduce_distortion(roughly, monitor);
+  if (!(result.energy < result.first_energy)) return std::nullopt;
   auto out = carried_over(*coarse, problem.charts, objective, result.uvs);
-  if (getenv("CTRACE")) fprintf(stderr, "CTE mesh %.3f its %d first %.4f E %.5f t %.3f carried %d status %d tris %zu\n", t1-t0, result.iterations, result.first_energy, result.energy, now() - t1, (int)out.has_value(), (int)result.status, start[0].triangles.size());
+  if (getenv("CTRACE"))
+    fprintf(stderr, "CTE mesh %.3f its %d first %.4f E %.5f t %.3f carried %d status %d tris %zu\n", t1 - t0, result.iterations,
+            result.first_energy, result.energy, now() - t1, (int)out.has_value(), (int)result.status, start[0].triangles.size());
   return out;
 }
 

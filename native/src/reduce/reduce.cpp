@@ -255,10 +255,9 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
   Iterate best = at;
   const double first_energy = at.energy, first_pe = at.pe;
   const bool relaxing = task.bounded() && !problem.warm && at.pe > problem.pe_target;
-  Schedule schedule =
-      problem.warm
-          ? warm_schedule(problem.warm->price, task.view(at, 0))
-          : first_schedule(relaxing, task.view(at, relaxing ? kMostMargin : 0), relaxing ? least_slack(model, at.state) : 1);
+  Schedule schedule = problem.warm ? warm_schedule(problem.warm->price, task.view(at, 0))
+                                   : first_schedule(relaxing, task.view(at, relaxing ? kMostMargin : 0),
+                                                    relaxing ? least_slack(model, at.state) : 1);
   if (!std::isfinite(at.energy) || !std::isfinite(barrier(model, at.state, find_contacts(model, at.state))))
     return result_of(task, best, ReduceStatus::Stalled, 0, 0);
   Counters counters;

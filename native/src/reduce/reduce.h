@@ -36,7 +36,7 @@ struct ReduceProblem {
   int threads = 1;
   /// Charts that only move count in the objective, by what they have; fixed ones do not.
   Freedoms freedom = {};
-  Vec2 frame = Vec2::Zero();  ///< PlacedCharts::frame; a problem with one has `box_aspect` and `pe_target`
+  Vec2 frame = Vec2::Zero();           ///< PlacedCharts::frame; a problem with one has `box_aspect` and `pe_target`
   std::optional<WarmStart> warm = {};  ///< of `charts`: they start in its box, with the barrier as soft as it is at the end
 };
 

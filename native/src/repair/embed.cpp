@@ -22,10 +22,12 @@ namespace {
 
 // The disk that the embedding starts from has a smaller box than what comes out: ask for more than the default gap.
 constexpr double kGapForLargerBox = 1.5;
-constexpr double kGentle = 10;         // E_d of a start that needs no evening out
-constexpr double kCollapsed = 100;     // E_d above which an embedding is no use
-static const int kCoarseRounds = getenv("EROUNDS") ? atoi(getenv("EROUNDS")) : 2;  // the second one's shapes are averaged where the chart is nearly at its optimum
-constexpr double kLeastWeight = 1e-3;  // of a triangle, as a fraction of the mean one
+constexpr double kGentle = 10;      // E_d of a start that needs no evening out
+constexpr double kCollapsed = 100;  // E_d above which an embedding is no use
+static const int kCoarseRounds = getenv("EROUNDS")
+                                     ? atoi(getenv("EROUNDS"))
+                                     : 2;  // the second one's shapes are averaged where the chart is nearly at its optimum
+constexpr double kLeastWeight = 1e-3;      // of a triangle, as a fraction of the mean one
 
 /// The triangles on the surface's shapes, the outer boundary where it is, every other loop filled by a fan around a new vertex.
 /// With the outer boundary convex, all of them positive means an embedding.
@@ -116,14 +118,18 @@ std::optional<Chart> embed(const Chart& guarded, int threads, Monitor& monitor) 
   const Gap wide = {.value = kGapForLargerBox * Gap{}.value};
   const double start_diagonal = uv_box({*start}).diagonal();
   std::vector<Chart> charts = {std::move(*start)};
-  const auto gap_in = [&](const std::vector<Chart>& now) { return Gap{.value = wide.value * start_diagonal / uv_box(now).diagonal()}; };
+  const auto gap_in = [&](const std::vector<Chart>& now) {
+    return Gap{.value = wide.value * start_diagonal / uv_box(now).diagonal()};
+  };
   for (int round = 0; round < kCoarseRounds; ++round) {
     auto nearer = reduced_coarsely({.charts = charts, .gap = gap_in(charts), .threads = threads}, report);
     if (!nearer) break;
     charts = std::move(*nearer);
   }
   ReduceResult result = reduce_distortion({.charts = charts, .gap = gap_in(charts), .threads = threads}, report);
-  if (getenv("CTRACE")) fprintf(stderr, "CTE fine its %d first %.5f E %.6f status %d\n", result.iterations, result.first_energy, result.energy, (int)result.status);
+  if (getenv("CTRACE"))
+    fprintf(stderr, "CTE fine its %d first %.5f E %.6f status %d\n", result.iterations, result.first_energy, result.energy,
+            (int)result.status);
   if (!(result.energy <= kCollapsed)) return std::nullopt;
   // Polygons that are convex in the end are guarded from here on.
   Chart embedded = guarded;
