@@ -112,7 +112,7 @@ TEST(CoarseAtlas, TrianglesThatTurnOverOnTheWayBackAreMended) {
                                  [&](const Triangle& t) { return std::find(t.begin(), t.end(), inner) != t.end(); });
   Vec2 middle = Vec2::Zero();
   for (const int v : *star) middle += 0.5 * (v == inner ? Vec2(Vec2::Zero()) : bent[0].uvs[v]);
-  bent[0].uvs[inner] += 0.9 * (middle - bent[0].uvs[inner]);
+  bent[0].uvs[inner] += 0.8 * (middle - bent[0].uvs[inner]);
   const auto uvs = prolonged(coarse, charts, objective, {bent[0].uvs});
   ASSERT_TRUE(uvs);
   const std::vector<Chart> fine = testing::with_uvs(charts, *uvs);

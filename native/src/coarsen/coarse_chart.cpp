@@ -153,6 +153,8 @@ std::optional<CoarseChart> coarsen(const Chart& chart, double spacing) {
   out.mesh.triangle_faces.assign(out.mesh.triangles.size(), chart.triangle_faces.front());
   const Locator locator(out.mesh.uvs, out.mesh.triangles);
   out.places = places_of(chart, out, locator);
+  if (std::any_of(out.places.begin(), out.places.end(), [](const Place& place) { return place.triangle < 0; }))
+    return std::nullopt;
   out.neighbours = locator.neighbours();
   out.mesh.surface = surface_of(chart, out);
   return out;

@@ -53,15 +53,15 @@ std::vector<Average> averages(const Chart& chart, const CoarseChart& coarse, con
 
 /// Triangles that hold the middle of no element are like those around them.
 void fill(const CoarseChart& coarse, std::vector<Average>& averages) {
-  for (bool left = true; left;) {
-    left = false;
+  for (bool filled = true; filled;) {
+    filled = false;
     const std::vector<Average> before = averages;
     for (std::size_t t = 0; t < averages.size(); ++t) {
       if (before[t].area > 0) continue;
       for (const int other : coarse.neighbours[t]) {
         if (other >= 0) averages[t] += before[other];
       }
-      left = left || averages[t].area == 0;
+      filled = filled || averages[t].area > 0;
     }
   }
 }

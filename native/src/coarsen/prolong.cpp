@@ -4,8 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <numeric>
 
 #include "geometry/guards.h"
 #include "solve/foldover.h"
@@ -90,43 +89,52 @@ void relax(Patch& patch, int v, double epsilon) {
   if (fraction == 0) patch.x[v] = from;
 }
 
-/// The vertices of these elements that may move; with `ring`, of those around them too.
-std::vector<int> movable(const Patch& patch, const std::vector<int>& elements, bool ring) {
+void sort_unique(std::vector<int>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// The vertices of these elements.
+std::vector<int> corners(const Patch& patch, const std::vector<int>& elements) {
   std::vector<int> out;
-  const auto add = [&](int e) { out.insert(out.end(), patch.elements[e].begin(), patch.elements[e].end()); };
-  for (const int e : elements) {
-    add(e);
-    if (!ring) continue;
-    for (const int v : patch.elements[e]) std::for_each(patch.around[v].begin(), patch.around[v].end(), add);
-  }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  std::erase_if(out, [&](int v) { return patch.fixed[v]; });
+  for (const int e : elements) out.insert(out.end(), patch.elements[e].begin(), patch.elements[e].end());
+  sort_unique(out);
   return out;
 }
 
-/// Of elements with too much of their first energy; true where none is left flipped.
-bool mend(const std::vector<double>& first_energy, Patch& patch) {
-  const auto is_bad = [&](int e) { return !(patch.energy_of(e) <= kBad * first_energy[e]); };
-  std::vector<int> bad;
-  for (int e = 0; e < static_cast<int>(patch.elements.size()); ++e) {
-    if (is_bad(e)) bad.push_back(e);
-  }
-  if (bad.empty()) return true;
+/// The elements around these vertices.
+std::vector<int> stars(const Patch& patch, const std::vector<int>& vertices) {
+  std::vector<int> out;
+  for (const int v : vertices) out.insert(out.end(), patch.around[v].begin(), patch.around[v].end());
+  sort_unique(out);
+  return out;
+}
+
+void find_stars(Patch& patch) {
   patch.around.resize(patch.x.size());
   for (int e = 0; e < static_cast<int>(patch.elements.size()); ++e) {
     for (const int v : patch.elements[e]) patch.around[v].push_back(e);
   }
+}
+
+/// Of elements with too much of their first energy; true where none is left flipped.
+bool mend(const std::vector<double>& first_energy, Patch& patch) {
+  const auto is_good = [&](int e) { return patch.energy_of(e) <= kBad * first_energy[e]; };
+  std::vector<int> bad(patch.elements.size());
+  std::iota(bad.begin(), bad.end(), 0);
+  std::erase_if(bad, is_good);
+  if (bad.empty()) return true;
+  find_stars(patch);
   double epsilon = kFirstBlur;
-  const auto nb = bad.size();
   for (int sweep = 0; sweep < kMostSweeps && !bad.empty(); ++sweep, epsilon = std::max(kLeastBlur, kFocus * epsilon)) {
-    for (const int v : movable(patch, bad, sweep >= kOwnSweeps)) relax(patch, v, epsilon);
-    std::erase_if(bad, [&](int e) { return !is_bad(e); });
+    const std::vector<int> moving = corners(patch, sweep < kOwnSweeps ? bad : stars(patch, corners(patch, bad)));
+    for (const int v : moving) {
+      if (!patch.fixed[v]) relax(patch, v, epsilon);
+    }
+    bad = stars(patch, moving);  // while some are flipped, others may be on the way
+    std::erase_if(bad, is_good);
   }
-  if (getenv("CTRACE"))
-    fprintf(stderr, "bad %zu left %zu flipped %zu\n", nb, bad.size(),
-            (std::size_t)std::count_if(bad.begin(), bad.end(), [&](int e) { return !std::isfinite(patch.energy_of(e)); }));
-  return std::none_of(bad.begin(), bad.end(), [&](int e) { return !std::isfinite(patch.energy_of(e)); });
+  return std::all_of(bad.begin(), bad.end(), [&](int e) { return std::isfinite(patch.energy_of(e)); });
 }
 
 std::vector<double> energies(const Patch& patch) {

@@ -5,8 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
@@ -22,12 +20,10 @@ namespace {
 
 // The disk that the embedding starts from has a smaller box than what comes out: ask for more than the default gap.
 constexpr double kGapForLargerBox = 1.5;
-constexpr double kGentle = 10;      // E_d of a start that needs no evening out
-constexpr double kCollapsed = 100;  // E_d above which an embedding is no use
-static const int kCoarseRounds = getenv("EROUNDS")
-                                     ? atoi(getenv("EROUNDS"))
-                                     : 2;  // the second one's shapes are averaged where the chart is nearly at its optimum
-constexpr double kLeastWeight = 1e-3;      // of a triangle, as a fraction of the mean one
+constexpr double kGentle = 10;         // E_d of a start that needs no evening out
+constexpr double kCollapsed = 100;     // E_d above which an embedding is no use
+constexpr int kCoarseRounds = 2;       // on coarse charts
+constexpr double kLeastWeight = 1e-3;  // of a triangle, as a fraction of the mean one
 
 /// The triangles on the surface's shapes, the outer boundary where it is, every other loop filled by a fan around a new vertex.
 /// With the outer boundary convex, all of them positive means an embedding.
@@ -103,6 +99,27 @@ std::optional<Chart> on_disk(const Chart& chart, int threads, Monitor& monitor) 
   return disk;
 }
 
+/// From the start to the optimum, first on coarse charts: the second time their shapes are averaged where the chart is nearly
+/// flat, not where the disk had crushed it.
+ReduceResult led_down(const std::vector<Chart>& start, int threads, Monitor& monitor) {
+  const auto report = [&](const ReduceProgress& progress) {
+    // E_d falls from far above to near 1: its logarithm tells how far the way is.
+    monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
+  };
+  const double gap = kGapForLargerBox * Gap{}.length(uv_box(start).size());
+  const auto problem_from = [&](const std::vector<Chart>& charts) {
+    return ReduceProblem{.charts = charts, .gap = {.value = gap / uv_box(charts).diagonal()}, .threads = threads};
+  };
+  std::vector<Chart> charts = start;
+  for (int round = 0; round < kCoarseRounds; ++round) {
+    auto nearer = reduced_coarsely(problem_from(charts), report);
+    if (!nearer) break;
+    charts = std::move(*nearer);
+  }
+  ReduceResult result = reduce_distortion(problem_from(charts), report);
+  return std::isfinite(result.energy) ? result : reduce_distortion(problem_from(start), report);
+}
+
 }  // namespace
 
 std::optional<Chart> embed(const Chart& guarded, int threads, Monitor& monitor) {
@@ -111,29 +128,11 @@ std::optional<Chart> embed(const Chart& guarded, int threads, Monitor& monitor) 
   std::optional<Chart> start = on_disk(chart, threads, monitor);
   if (!start) return std::nullopt;
   if (Chart better = stretched(*start); certify_charts({better}).valid()) start = std::move(better);
-  // E_d falls from far above to near 1: its logarithm tells how far the way is.
-  const auto report = [&](const ReduceProgress& progress) {
-    monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
-  };
-  const Gap wide = {.value = kGapForLargerBox * Gap{}.value};
-  const double start_diagonal = uv_box({*start}).diagonal();
-  std::vector<Chart> charts = {std::move(*start)};
-  const auto gap_in = [&](const std::vector<Chart>& now) {
-    return Gap{.value = wide.value * start_diagonal / uv_box(now).diagonal()};
-  };
-  for (int round = 0; round < kCoarseRounds; ++round) {
-    auto nearer = reduced_coarsely({.charts = charts, .gap = gap_in(charts), .threads = threads}, report);
-    if (!nearer) break;
-    charts = std::move(*nearer);
-  }
-  ReduceResult result = reduce_distortion({.charts = charts, .gap = gap_in(charts), .threads = threads}, report);
-  if (getenv("CTRACE"))
-    fprintf(stderr, "CTE fine its %d first %.5f E %.6f status %d\n", result.iterations, result.first_energy, result.energy,
-            (int)result.status);
+  const ReduceResult result = led_down({std::move(*start)}, threads, monitor);
   if (!(result.energy <= kCollapsed)) return std::nullopt;
   // Polygons that are convex in the end are guarded from here on.
   Chart embedded = guarded;
-  embedded.uvs = std::move(result.uvs[0]);
+  embedded.uvs = result.uvs[0];
   drop_broken_guards(embedded);
   return embedded;
 }
