@@ -8,8 +8,11 @@ namespace atlas_refine {
 namespace {
 
 // In open space coarse charts need not come nearer to their optimum than that is to the fine one.
-constexpr double kCoarseChange = 2e-3;
-constexpr double kCoarseNegligible = 1e-6;
+constexpr double kOpenChange = 2e-3;
+constexpr double kOpenNegligible = 1e-6;
+// Under the bound what slides slowly slides on the coarse charts, where that costs little: fine ones would stop short of it.
+constexpr double kBoundChange = 2e-5;
+constexpr double kBoundNegligible = 1e-9;
 
 bool holds(const ReduceResult& result) { return result.reached && result.within_limit; }
 
@@ -45,7 +48,10 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   if (!coarse) return std::nullopt;
   std::vector<PlacedCharts> coarse_starts;
   for (const PlacedCharts& start : starts) coarse_starts.push_back(restricted(*coarse, start));
-  Squeezed out = squeeze_directly(coarse_starts, coarse->objective, options, monitor);
+  SqueezeOptions patiently = options;
+  patiently.least_change = kBoundChange;
+  patiently.negligible = kBoundNegligible;
+  Squeezed out = squeeze_directly(coarse_starts, coarse->objective, patiently, monitor);
   if (!holds(out.outcome)) return std::nullopt;
   const auto start = carried_over(*coarse, charts, objective, out.outcome.uvs);
   if (!start) return std::nullopt;
@@ -66,8 +72,8 @@ std::optional<std::vector<Chart>> reduced_coarsely(const ReduceProblem& problem,
   const ReduceProblem roughly{.charts = start,
                               .objective = coarse->objective,
                               .gap = problem.gap,
-                              .least_change = kCoarseChange,
-                              .negligible = kCoarseNegligible,
+                              .least_change = kOpenChange,
+                              .negligible = kOpenNegligible,
                               .threads = problem.threads,
                               .freedom = problem.freedom};
   const ReduceResult result = reduce_distortion(roughly, monitor);

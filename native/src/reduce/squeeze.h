@@ -15,7 +15,9 @@ struct SqueezeOptions {
   std::vector<Gap> gaps;      ///< to be tried in this order: the asked one, then smaller ones where that is allowed
   double max_distortion = 0;  ///< of the surface's E_d; 0 = no limit
   int threads = 1;
-  Freedoms freedom = {};  ///< of the charts; fixed ones need starts in a frame
+  Freedoms freedom = {};       ///< of the charts; fixed ones need starts in a frame
+  double least_change = 2e-4;  ///< ReduceProblem::least_change
+  double negligible = 1e-8;    ///< ReduceProblem::negligible
 };
 
 /// Why the first of automatic_gaps() may be smaller than the default.
