@@ -1,18 +1,13 @@
 // The squeeze: all starts and gaps on coarse charts, only the best of them on the fine ones.
-#include "reduce/coarse_to_fine.h"
-
 #include "coarsen/coarse_atlas.h"
 #include "reduce/squeeze.h"
 
 namespace atlas_refine {
 namespace {
 
-// In open space coarse charts need not come nearer to their optimum than that is to the fine one.
-constexpr double kOpenChange = 2e-3;
-constexpr double kOpenNegligible = 1e-6;
-// Under the bound what slides slowly slides on the coarse charts, where that costs little: fine ones would stop short of it.
-constexpr double kBoundChange = 2e-5;
-constexpr double kBoundNegligible = 1e-9;
+// What slides slowly slides on the coarse charts, where that costs little: fine ones would stop short of it.
+constexpr double kLeastChange = 2e-5;
+constexpr double kNegligible = 1e-9;
 
 bool holds(const ReduceResult& result) { return result.reached && result.within_limit; }
 
@@ -49,8 +44,8 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   std::vector<PlacedCharts> coarse_starts;
   for (const PlacedCharts& start : starts) coarse_starts.push_back(restricted(*coarse, start));
   SqueezeOptions patiently = options;
-  patiently.least_change = kBoundChange;
-  patiently.negligible = kBoundNegligible;
+  patiently.least_change = kLeastChange;
+  patiently.negligible = kNegligible;
   Squeezed out = squeeze_directly(coarse_starts, coarse->objective, patiently, monitor);
   if (!holds(out.outcome)) return std::nullopt;
   const auto start = carried_over(*coarse, charts, objective, out.outcome.uvs);
@@ -63,23 +58,6 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
 }
 
 }  // namespace
-
-std::optional<std::vector<Chart>> reduced_coarsely(const ReduceProblem& problem, const ReduceMonitor& monitor) {
-  const Objective objective = problem.objective ? *problem.objective : make_objective(problem.charts);
-  const auto coarse = coarsen(problem.charts, objective, problem.freedom);
-  if (!coarse) return std::nullopt;
-  const std::vector<Chart> start = restricted(*coarse, {problem.charts}).charts;
-  const ReduceProblem roughly{.charts = start,
-                              .objective = coarse->objective,
-                              .gap = problem.gap,
-                              .least_change = kOpenChange,
-                              .negligible = kOpenNegligible,
-                              .threads = problem.threads,
-                              .freedom = problem.freedom};
-  const ReduceResult result = reduce_distortion(roughly, monitor);
-  if (!(result.energy < result.first_energy)) return std::nullopt;
-  return carried_over(*coarse, problem.charts, objective, result.uvs);
-}
 
 Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor) {

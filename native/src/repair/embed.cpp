@@ -11,7 +11,7 @@
 #include "geometry/tutte.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
-#include "reduce/coarse_to_fine.h"
+#include "reduce/reduce.h"
 #include "repair/untangle.h"
 #include "solve/symmetric_dirichlet.h"
 
@@ -22,7 +22,6 @@ namespace {
 constexpr double kGapForLargerBox = 1.5;
 constexpr double kGentle = 10;         // E_d of a start that needs no evening out
 constexpr double kCollapsed = 100;     // E_d above which an embedding is no use
-constexpr int kCoarseRounds = 2;       // on coarse charts
 constexpr double kLeastWeight = 1e-3;  // of a triangle, as a fraction of the mean one
 
 /// The triangles on the surface's shapes, the outer boundary where it is, every other loop filled by a fan around a new vertex.
@@ -99,27 +98,6 @@ std::optional<Chart> on_disk(const Chart& chart, int threads, Monitor& monitor) 
   return disk;
 }
 
-/// From the start to the optimum, first on coarse charts: the second time their shapes are averaged where the chart is nearly
-/// flat, not where the disk had crushed it.
-ReduceResult led_down(const std::vector<Chart>& start, int threads, Monitor& monitor) {
-  const auto report = [&](const ReduceProgress& progress) {
-    // E_d falls from far above to near 1: its logarithm tells how far the way is.
-    monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
-  };
-  const double gap = kGapForLargerBox * Gap{}.length(uv_box(start).size());
-  const auto problem_from = [&](const std::vector<Chart>& charts) {
-    return ReduceProblem{.charts = charts, .gap = {.value = gap / uv_box(charts).diagonal()}, .threads = threads};
-  };
-  std::vector<Chart> charts = start;
-  for (int round = 0; round < kCoarseRounds; ++round) {
-    auto nearer = reduced_coarsely(problem_from(charts), report);
-    if (!nearer) break;
-    charts = std::move(*nearer);
-  }
-  ReduceResult result = reduce_distortion(problem_from(charts), report);
-  return std::isfinite(result.energy) ? result : reduce_distortion(problem_from(start), report);
-}
-
 }  // namespace
 
 std::optional<Chart> embed(const Chart& guarded, int threads, Monitor& monitor) {
@@ -128,11 +106,16 @@ std::optional<Chart> embed(const Chart& guarded, int threads, Monitor& monitor) 
   std::optional<Chart> start = on_disk(chart, threads, monitor);
   if (!start) return std::nullopt;
   if (Chart better = stretched(*start); certify_charts({better}).valid()) start = std::move(better);
-  const ReduceResult result = led_down({std::move(*start)}, threads, monitor);
+  const std::vector<Chart> charts = {*start};
+  const ReduceProblem problem{.charts = charts, .gap = {.value = kGapForLargerBox * Gap{}.value}, .threads = threads};
+  ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
+    // E_d falls from far above to near 1: its logarithm tells how far the way is.
+    monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
+  });
   if (!(result.energy <= kCollapsed)) return std::nullopt;
   // Polygons that are convex in the end are guarded from here on.
   Chart embedded = guarded;
-  embedded.uvs = result.uvs[0];
+  embedded.uvs = std::move(result.uvs[0]);
   drop_broken_guards(embedded);
   return embedded;
 }
