@@ -127,7 +127,7 @@ Surface surface_of(const Chart& chart, const CoarseChart& coarse) {
     }
     for (int k = 0; k < 3; ++k) {
       const double a = lengths[(k + 1) % 3], b = lengths[(k + 2) % 3];
-      if (!known[k]) lengths[k] = std::clamp(lengths[k], std::abs(a - b) + kFlat * (a + b), (1 - kFlat) * (a + b));
+      if (!known[k]) lengths[k] = std::max(std::min(lengths[k], (1 - kFlat) * (a + b)), std::abs(a - b) + kFlat * (a + b));
     }
     shapes.push_back(with_sides(lengths));
   }
