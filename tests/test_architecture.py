@@ -18,6 +18,7 @@ LEVELS = [
     ["solve"],
     ["measure"],
     ["cut"],
+    ["coarsen"],
     ["input", "pack", "align", "layout", "reduce"],
     ["repair"],
     ["report"],

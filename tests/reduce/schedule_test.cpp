@@ -26,6 +26,14 @@ TEST(Schedule, SoftensFromTheTargetOnAndNotBefore) {
   EXPECT_TRUE(settled(schedule, below(0.01), 0.01));
 }
 
+TEST(Schedule, AWarmStartIsAsSoftAsAnEnd) {
+  Schedule end = first_schedule(false, below(0.2), 1);
+  for (int k = 0; k < 40; ++k) adapt(end, below(1e-5), 0.02, 1);
+  const Schedule warm = warm_schedule(0.02, below(0));
+  EXPECT_DOUBLE_EQ(warm.stiffness, end.stiffness);
+  EXPECT_TRUE(settled(warm, below(0), 0.02));
+}
+
 TEST(Schedule, StiffnessFollowsThePriceByAFactorOfTwoAtMost) {
   Schedule schedule = first_schedule(false, below(0.2), 1);
   const double before = schedule.stiffness;

@@ -4,33 +4,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "geometry/box_tree.h"
 #include "geometry/plane.h"
 
 namespace atlas_refine {
 namespace {
-
-/// Surface length of every boundary edge of a chart, keyed by (start, end).
-std::map<std::pair<int, int>, double> surface_lengths(const Chart& chart) {
-  std::map<std::pair<int, int>, double> lengths;
-  std::vector<char> on_boundary(chart.vertex_count(), 0);
-  for (const auto& loop : chart.boundary_loops) {
-    for (int v : loop) on_boundary[v] = 1;
-  }
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    const Triangle& triangle = chart.triangles[t];
-    if (on_boundary[triangle[0]] + on_boundary[triangle[1]] + on_boundary[triangle[2]] < 2) continue;
-    const Mat2 edges = chart.surface[t].inverse_edges.inverse();
-    const Vec2 e1 = edges.col(0);
-    const Vec2 e2 = edges.col(1);
-    lengths[{triangle[0], triangle[1]}] = e1.norm();
-    lengths[{triangle[1], triangle[2]}] = (e2 - e1).norm();
-    lengths[{triangle[2], triangle[0]}] = e2.norm();
-  }
-  return lengths;
-}
 
 /// The boxes that the boundary vertices sweep.
 std::vector<Box> swept_points(const Boundary& boundary, const std::vector<Vec2>& positions,
@@ -65,6 +44,25 @@ bool points_outside(const Boundary& boundary, const std::vector<Vec2>& positions
 }
 
 }  // namespace
+
+std::map<std::pair<int, int>, double> surface_lengths(const Chart& chart) {
+  std::map<std::pair<int, int>, double> lengths;
+  std::vector<char> on_boundary(chart.vertex_count(), 0);
+  for (const auto& loop : chart.boundary_loops) {
+    for (int v : loop) on_boundary[v] = 1;
+  }
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    const Triangle& triangle = chart.triangles[t];
+    if (on_boundary[triangle[0]] + on_boundary[triangle[1]] + on_boundary[triangle[2]] < 2) continue;
+    const Mat2 edges = chart.surface[t].inverse_edges.inverse();
+    const Vec2 e1 = edges.col(0);
+    const Vec2 e2 = edges.col(1);
+    lengths[{triangle[0], triangle[1]}] = e1.norm();
+    lengths[{triangle[1], triangle[2]}] = (e2 - e1).norm();
+    lengths[{triangle[2], triangle[0]}] = e2.norm();
+  }
+  return lengths;
+}
 
 double Boundary::arc_between(int point, int edge) const {
   const double length = loop_length[loop[point]];

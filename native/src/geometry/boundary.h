@@ -1,6 +1,8 @@
 // The boundaries of all charts of an atlas as one flat structure, and the search for pairs that are near each other.
 #pragma once
 
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "geometry/chart.h"
@@ -21,6 +23,10 @@ struct Boundary {
   /// Distance along the common loop between boundary vertex `point` and edge `edge`, on the surface.
   double arc_between(int point, int edge) const;
 };
+
+/// Lengths on the surface of the sides of triangles with two corners or more on the boundary, all boundary edges among them, by
+/// (start, end).
+std::map<std::pair<int, int>, double> surface_lengths(const Chart& chart);
 
 /// Flattens the loops of `charts`; vertex k of chart c becomes first_vertex[c] + k.
 Boundary make_boundary(const std::vector<Chart>& charts, const std::vector<int>& first_vertex);

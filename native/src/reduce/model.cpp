@@ -44,6 +44,12 @@ void place_in_frame(const Vec2& frame, ReduceModel& model) {
   model.range = kRangeFraction * model.start.box.norm();
 }
 
+/// So does one that goes on in a box.
+void place_in_box(const WarmStart& warm, ReduceModel& model) {
+  model.start.box = warm.box / model.objective.unit;
+  model.range = warm.range / model.objective.unit;
+}
+
 void place_start(ReduceModel& model) {
   const Box tight = box_of_points(model.start.x);
   const Vec2 size = box_of_aspect(tight, model.aspect).size();
@@ -131,7 +137,9 @@ ReduceModel make_model(const ReduceProblem& problem) {
   model.boundary = make_boundary(problem.charts, model.first_vertex);
   for (double& arc : model.boundary.arc) arc /= model.objective.unit;
   for (double& length : model.boundary.loop_length) length /= model.objective.unit;
-  if (problem.frame.x() > 0)
+  if (problem.warm)
+    place_in_box(*problem.warm, model);
+  else if (problem.frame.x() > 0)
     place_in_frame(problem.frame, model);
   else
     place_start(model);

@@ -64,7 +64,7 @@ void measure(const Task& task, Iterate& at) {
 }
 
 Iterate first_iterate(const Task& task) {
-  Iterate at{.state = task.model.start};
+  Iterate at{.state = task.model.start, .price = task.problem.warm ? task.problem.warm->price : 0};
   at.energy = model_energy(task.model, at.state.x);
   measure(task, at);
   return at;
@@ -232,7 +232,8 @@ std::vector<double> energy_of_triangles(const Task& task, const std::vector<Vec2
 ReduceResult result_of(const Task& task, const Iterate& best, ReduceStatus status, double stiffness, int iterations) {
   const ReduceModel& model = task.model;
   ReduceResult out{.uvs = by_piece(model, best.state.x, model.objective.unit), .status = status};
-  if (task.problem.frame.x() > 0) out.frame = model.objective.unit * best.state.box;
+  out.end = {model.objective.unit * best.state.box, model.objective.unit * model.range, best.price};
+  if (task.problem.frame.x() > 0) out.frame = out.end.box;
   out.reached = task.holds_bound(best);
   out.within_limit = task.within_limit(best);
   out.pe = best.pe;
@@ -258,9 +259,10 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
   Iterate at = first_iterate(task);
   Iterate best = at;
   const double first_energy = at.energy, first_pe = at.pe;
-  const bool relaxing = task.bounded() && at.pe > problem.pe_target;
-  Schedule schedule =
-      first_schedule(relaxing, task.view(at, relaxing ? kMostMargin : 0), relaxing ? least_slack(model, at.state) : 1);
+  const bool relaxing = task.bounded() && !problem.warm && at.pe > problem.pe_target;
+  Schedule schedule = problem.warm ? warm_schedule(problem.warm->price, task.view(at, 0))
+                                   : first_schedule(relaxing, task.view(at, relaxing ? kMostMargin : 0),
+                                                    relaxing ? least_slack(model, at.state) : 1);
   if (!std::isfinite(at.energy) || !std::isfinite(barrier(model, at.state, find_contacts(model, at.state))))
     return result_of(task, best, ReduceStatus::Stalled, 0, 0);
   Counters counters;

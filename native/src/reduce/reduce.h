@@ -14,6 +14,13 @@ namespace atlas_refine {
 /// The engine starts in a box that is a little larger than the charts' own, and the gap follows the box.
 inline constexpr double kStartGap = 1.006;
 
+/// What a start that ended a problem like this one brings along.
+struct WarmStart {
+  Vec2 box = Vec2::Zero();  ///< [0, box.x] x [0, box.y], which the charts lie in
+  double range = 0;         ///< the barrier was felt so far beyond the gap
+  double price = 0;         ///< as ReduceResult::price
+};
+
 struct ReduceProblem {
   const std::vector<Chart>& charts;         ///< placed, free of flips and crossings, kStartGap times the gap apart; the start
   std::optional<Objective> objective = {};  ///< of `charts`; nothing: the surface
@@ -29,7 +36,8 @@ struct ReduceProblem {
   int threads = 1;
   /// Charts that only move count in the objective, by what they have; fixed ones do not.
   Freedoms freedom = {};
-  Vec2 frame = Vec2::Zero();  ///< PlacedCharts::frame; a problem with one has `box_aspect` and `pe_target`
+  Vec2 frame = Vec2::Zero();           ///< PlacedCharts::frame; a problem with one has `box_aspect` and `pe_target`
+  std::optional<WarmStart> warm = {};  ///< of `charts`: they start in its box, with the barrier as soft as it is at the end
 };
 
 enum class ReduceStatus {
@@ -56,6 +64,7 @@ using ReduceMonitor = std::function<void(const ReduceProgress&)>;
 struct ReduceResult {
   std::vector<std::vector<Vec2>> uvs;  ///< one array per chart, in the start's units
   Vec2 frame = Vec2::Zero();           ///< where the problem has one: what it has become
+  WarmStart end;                       ///< for a problem that goes on from here
   ReduceStatus status = ReduceStatus::Converged;
   bool reached = false;  ///< PE of the frame, or of the charts' own bounding box (of the asked aspect), is at least the target
   bool within_limit = true;  ///< E_d is at most max_distortion

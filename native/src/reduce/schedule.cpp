@@ -44,6 +44,13 @@ Schedule first_schedule(bool relaxing, const ScheduleView& view, double slack) {
   return out;
 }
 
+Schedule warm_schedule(double price, const ScheduleView& view) {
+  return {.arrived = true,
+          .firmness = kSoftFirmness,
+          .stiffness = kSoftFirmness * std::max(price, kLeastPrice) * view.range,
+          .damping = kLeastDamping};
+}
+
 double largest_climb(double deficit) { return std::clamp(0.2 * deficit, kLeastClimb, kMostClimb); }
 
 double largest_fall(double energy, double enough) { return energy - 1 > kFar * (enough - 1) ? kFastFall : kMostFall; }

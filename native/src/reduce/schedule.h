@@ -30,6 +30,9 @@ inline constexpr double kMostMargin = 0.006;  ///< the margin a relaxing start b
 /// `slack` is the smallest slack of any contact, read while relaxing only.
 Schedule first_schedule(bool relaxing, const ScheduleView& view, double slack);
 
+/// Of a start that is at its target, where the barrier was soft at this price.
+Schedule warm_schedule(double price, const ScheduleView& view);
+
 /// log PE may gain at most this much in one iteration below the target.
 double largest_climb(double deficit);
 /// log PE may fall at most this much while relaxing; faster as long as E_d - 1 is far from `enough` - 1.

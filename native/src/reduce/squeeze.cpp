@@ -14,9 +14,6 @@ namespace {
 
 constexpr double kGapStep = 0.6;
 constexpr int kGapSteps = 8;
-// The last 1e-5 of E_d took a third of all iterations.
-constexpr double kLeastChange = 5e-4;
-constexpr double kNegligible = 1e-6;
 // With several charts a smaller gap is tried where the objective has risen by more than this on the way to the bound,
 constexpr double kNoticeable = 0.02;
 constexpr double kMostRise = 0.06;  // at once where it has risen by more than this,
@@ -30,8 +27,8 @@ ReduceResult reduce_from(const PlacedCharts& start, const Objective& objective, 
                               .gap = gap,
                               .box_aspect = options.box_aspect,
                               .pe_target = options.pe_bound,
-                              .least_change = kLeastChange,
-                              .negligible = kNegligible,
+                              .least_change = options.least_change,
+                              .negligible = options.negligible,
                               .max_distortion = options.max_distortion,
                               .max_rise = gap.value == options.gaps.back().value || start.charts.size() == 1 ? 0 : kMostRise,
                               .threads = threads,
@@ -125,8 +122,8 @@ std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_boun
   return gaps;
 }
 
-Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
-                 Monitor& monitor) {
+Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
+                          Monitor& monitor) {
   Squeezed out;
   std::string note = options.gaps.front().value < Gap{}.value ? kNoRoom : "";
   std::vector<PlacedCharts> present = starts;

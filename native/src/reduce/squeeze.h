@@ -15,7 +15,9 @@ struct SqueezeOptions {
   std::vector<Gap> gaps;      ///< to be tried in this order: the asked one, then smaller ones where that is allowed
   double max_distortion = 0;  ///< of the surface's E_d; 0 = no limit
   int threads = 1;
-  Freedoms freedom = {};  ///< of the charts; fixed ones need starts in a frame
+  Freedoms freedom = {};       ///< of the charts; fixed ones need starts in a frame
+  double least_change = 5e-4;  ///< ReduceProblem::least_change: the last 1e-5 of E_d took a third of all iterations
+  double negligible = 1e-6;    ///< ReduceProblem::negligible
 };
 
 /// Why the first of automatic_gaps() may be smaller than the default.
@@ -43,6 +45,11 @@ std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_boun
 /// distortion that holds the bound. Where none does, or the bound costs much distortion with this gap, the next one is tried, and
 /// kept where it spares a good part of that distortion; in the end, where none holds the bound, the state of the highest PE is
 /// returned. Starts run in parallel; the choice is by the objective, ties by index.
+Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
+                          Monitor& monitor);
+
+/// The same, sooner where charts have many triangles: on coarse charts, whose best result the charts themselves then go on from.
+/// Where that does not hold the bound they are squeezed directly.
 Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor);
 

@@ -1,0 +1,164 @@
+// Linear in each coarse triangle; then Newton steps of single vertices around bad elements.
+#include "coarsen/prolong.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "geometry/guards.h"
+#include "solve/foldover.h"
+#include "solve/newton.h"
+
+namespace atlas_refine {
+namespace {
+
+constexpr double kBad = 2;           // times its energy before: an element that has to be mended
+constexpr int kMostSweeps = 40;      // over the vertices of bad elements
+constexpr int kOwnSweeps = 6;        // without those around them
+constexpr double kFirstBlur = 0.3;   // epsilon of the energy for flipped elements,
+constexpr double kFocus = 0.7;       // falls by this factor in every sweep,
+constexpr double kLeastBlur = 1e-3;  // to this
+
+/// Elements of a chart in solver units.
+struct Patch {
+  std::vector<Triangle> elements;
+  const ChartObjective& objective;
+  std::vector<Vec2> x;
+  std::vector<char> fixed;               ///< per vertex
+  std::vector<std::vector<int>> around;  ///< per vertex: its elements
+
+  Mat2 jacobian_of(int e) const {
+    const Triangle& t = elements[e];
+    return jacobian(objective.inverse_edges[e], x[t[0]], x[t[1]], x[t[2]]);
+  }
+  double energy_of(int e) const { return symmetric_dirichlet(jacobian_of(e)); }
+};
+
+std::vector<Triangle> elements_of(const Chart& chart) {
+  std::vector<Triangle> out = chart.triangles;
+  for (const Guard& guard : chart.guards) out.push_back(guard.triangle);
+  return out;
+}
+
+std::vector<Vec2> interpolated(const CoarseChart& coarse, const std::vector<Vec2>& coarse_uvs) {
+  std::vector<Vec2> out;
+  for (const Place& place : coarse.places) {
+    const Triangle& t = coarse.mesh.triangles[place.triangle];
+    Vec2 sum = Vec2::Zero();
+    for (int k = 0; k < 3; ++k) sum += place.weights[k] * coarse_uvs[t[k]];
+    out.push_back(sum);
+  }
+  return out;
+}
+
+/// Energy of the elements around a vertex, finite for flipped ones where epsilon > 0.
+double local_energy(const Patch& patch, int v, double epsilon) {
+  double sum = 0;
+  for (const int e : patch.around[v])
+    sum += patch.objective.weight[e] *
+           (epsilon > 0 ? foldover_energy(patch.jacobian_of(e), epsilon) : symmetric_dirichlet(patch.jacobian_of(e)));
+  return sum;
+}
+
+/// One damped Newton step of one vertex.
+void relax(Patch& patch, int v, double epsilon) {
+  Vec2 gradient = Vec2::Zero();
+  Mat2 hessian = Mat2::Zero();
+  bool flipped = false;
+  for (const int e : patch.around[v]) flipped = flipped || !(patch.jacobian_of(e).determinant() > 0);
+  if (!flipped) epsilon = 0;
+  for (const int e : patch.around[v]) {
+    const Triangle& t = patch.elements[e];
+    const auto& x = patch.x;
+    const TriangleDerivatives d =
+        epsilon > 0 ? foldover_derivatives(patch.objective.inverse_edges[e], x[t[0]], x[t[1]], x[t[2]], epsilon)
+                    : symmetric_dirichlet_derivatives(patch.objective.inverse_edges[e], x[t[0]], x[t[1]], x[t[2]]);
+    const auto k = std::find(t.begin(), t.end(), v) - t.begin();
+    gradient += patch.objective.weight[e] * d.gradient[k];
+    hessian += patch.objective.weight[e] * d.diagonal[k];
+  }
+  const Vec2 step = -hessian.inverse() * gradient;
+  if (!step.allFinite()) return;
+  const Vec2 from = patch.x[v];
+  const double before = local_energy(patch, v, epsilon);
+  const double fraction = line_search(1, before, gradient.dot(step), [&](double part) {
+    patch.x[v] = from + part * step;
+    return local_energy(patch, v, epsilon);
+  });
+  if (fraction == 0) patch.x[v] = from;
+}
+
+void sort_unique(std::vector<int>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// The vertices of these elements.
+std::vector<int> corners(const Patch& patch, const std::vector<int>& elements) {
+  std::vector<int> out;
+  for (const int e : elements) out.insert(out.end(), patch.elements[e].begin(), patch.elements[e].end());
+  sort_unique(out);
+  return out;
+}
+
+/// The elements around these vertices.
+std::vector<int> stars(const Patch& patch, const std::vector<int>& vertices) {
+  std::vector<int> out;
+  for (const int v : vertices) out.insert(out.end(), patch.around[v].begin(), patch.around[v].end());
+  sort_unique(out);
+  return out;
+}
+
+void find_stars(Patch& patch) {
+  patch.around.resize(patch.x.size());
+  for (int e = 0; e < static_cast<int>(patch.elements.size()); ++e) {
+    for (const int v : patch.elements[e]) patch.around[v].push_back(e);
+  }
+}
+
+/// Of elements with too much of their first energy; true where none is left flipped.
+bool mend(const std::vector<double>& first_energy, Patch& patch) {
+  const auto is_good = [&](int e) { return patch.energy_of(e) <= kBad * first_energy[e]; };
+  std::vector<int> bad(patch.elements.size());
+  std::iota(bad.begin(), bad.end(), 0);
+  std::erase_if(bad, is_good);
+  if (bad.empty()) return true;
+  find_stars(patch);
+  double epsilon = kFirstBlur;
+  for (int sweep = 0; sweep < kMostSweeps && !bad.empty(); ++sweep, epsilon = std::max(kLeastBlur, kFocus * epsilon)) {
+    const std::vector<int> moving = corners(patch, sweep < kOwnSweeps ? bad : stars(patch, corners(patch, bad)));
+    for (const int v : moving) {
+      if (!patch.fixed[v]) relax(patch, v, epsilon);
+    }
+    bad = stars(patch, moving);  // while some are flipped, others may be on the way
+    std::erase_if(bad, is_good);
+  }
+  return std::all_of(bad.begin(), bad.end(), [&](int e) { return std::isfinite(patch.energy_of(e)); });
+}
+
+std::vector<double> energies(const Patch& patch) {
+  std::vector<double> out;
+  for (int e = 0; e < static_cast<int>(patch.elements.size()); ++e) out.push_back(patch.energy_of(e));
+  return out;
+}
+
+}  // namespace
+
+std::optional<std::vector<Vec2>> prolong(const Chart& chart, const CoarseChart& coarse, const std::vector<Vec2>& coarse_uvs,
+                                         const ChartObjective& fine, double unit) {
+  Patch patch{.elements = elements_of(chart), .objective = fine, .x = chart.uvs, .fixed = {}, .around = {}};
+  for (Vec2& x : patch.x) x /= unit;
+  const std::vector<double> first_energy = energies(patch);
+  patch.x = interpolated(coarse, coarse_uvs);
+  for (Vec2& x : patch.x) x /= unit;
+  patch.fixed.assign(chart.vertex_count(), 0);
+  for (const std::vector<int>& loop : chart.boundary_loops) {
+    for (const int v : loop) patch.fixed[v] = 1;
+  }
+  if (!mend(first_energy, patch)) return std::nullopt;
+  for (Vec2& x : patch.x) x *= unit;
+  return std::move(patch.x);
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,171 @@
+// Greedy Poisson disk sampling along the mesh, from the boundary inwards.
+#include "coarsen/sample_vertices.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace atlas_refine {
+namespace {
+
+constexpr double kGrowth = 0.7;  // of the distance that samples keep, per length away from the boundary
+
+/// Edges from vertex v: entries [first[v], first[v + 1]); inner ones come twice. Lengths are those on the surface.
+struct VertexGraph {
+  std::vector<int> first, neighbours;
+  std::vector<double> lengths;
+
+  template <class Visit>
+  void visit(int v, Visit&& visit) const {
+    for (int k = first[v]; k < first[v + 1]; ++k) visit(neighbours[k], lengths[k]);
+  }
+};
+
+/// Of the sides (0, 1), (1, 2), (2, 0).
+std::array<double, 3> side_lengths(const RestTriangle& shape) {
+  const Mat2 edges = shape.inverse_edges.inverse();
+  return {edges.col(0).norm(), (edges.col(1) - edges.col(0)).norm(), edges.col(1).norm()};
+}
+
+VertexGraph graph_of(const Chart& chart) {
+  VertexGraph out;
+  out.first.assign(chart.vertex_count() + 1, 0);
+  for (const Triangle& t : chart.triangles) {
+    for (const int v : t) out.first[v + 1] += 2;
+  }
+  for (int v = 0; v < chart.vertex_count(); ++v) out.first[v + 1] += out.first[v];
+  std::vector<int> next(out.first.begin(), out.first.end() - 1);
+  out.neighbours.resize(out.first.back());
+  out.lengths.resize(out.first.back());
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    const std::array<double, 3> lengths = side_lengths(chart.surface[t]);
+    for (int k = 0; k < 3; ++k) {
+      const int a = chart.triangles[t][k], b = chart.triangles[t][(k + 1) % 3];
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+        out.neighbours[next[from]] = to;
+        out.lengths[next[from]++] = lengths[k];
+      }
+    }
+  }
+  return out;
+}
+
+using Entry = std::pair<double, int>;  // distance, vertex
+using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+
+/// The distance that a sample at each vertex keeps, and the vertices ordered by it.
+struct Spacing {
+  std::vector<double> at;
+  std::vector<int> order;
+};
+
+/// At boundary vertices: the longer of their boundary edges.
+std::vector<double> spacing_at_boundary(const Chart& chart, const VertexGraph& graph) {
+  std::vector<double> at(chart.vertex_count(), std::numeric_limits<double>::infinity());
+  for (const std::vector<int>& loop : chart.boundary_loops) {
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const int before = loop[(k + loop.size() - 1) % loop.size()], after = loop[(k + 1) % loop.size()];
+      double longest = 0;
+      graph.visit(loop[k], [&](int u, double length) {
+        if (u == before || u == after) longest = std::max(longest, length);
+      });
+      at[loop[k]] = longest;
+    }
+  }
+  return at;
+}
+
+/// Dijkstra from the boundary: a vertex keeps what its nearest boundary edges are long, more away from them.
+Spacing grown_spacing(const Chart& chart, const VertexGraph& graph, double most) {
+  Spacing out;
+  out.at = spacing_at_boundary(chart, graph);
+  Queue queue;
+  for (int v = 0; v < chart.vertex_count(); ++v) {
+    if (std::isfinite(out.at[v])) queue.emplace(out.at[v], v);
+  }
+  while (!queue.empty()) {
+    const auto [value, v] = queue.top();
+    queue.pop();
+    if (value > out.at[v]) continue;
+    out.order.push_back(v);
+    graph.visit(v, [&](int u, double length) {
+      const double grown = value + kGrowth * length;
+      if (grown < out.at[u]) queue.emplace(out.at[u] = grown, u);
+    });
+  }
+  for (double& value : out.at) value = std::min(value, most);
+  return out;
+}
+
+/// Samples taken so far, and the entry of one that is near for every vertex too near to be one itself.
+class Sampling {
+ public:
+  Sampling(const VertexGraph& graph, const std::vector<double>& spacing)
+      : graph_(graph), spacing_(spacing), owner_(spacing.size(), -1), taken_(spacing.size(), 0), distance_(spacing.size()) {}
+
+  bool covered(int v) const { return owner_[v] >= 0; }
+  bool taken(int v) const { return taken_[v]; }
+
+  void take(int v) {
+    int near = owner_[v];
+    graph_.visit(v, [&](int u, double) { near = std::max(near, owner_[u]); });
+    const int entry = static_cast<int>(sample_.vertices.size());
+    sample_.vertices.push_back(v);
+    taken_[v] = 1;
+    sample_.near.push_back(near);
+    cover(v, entry);
+  }
+
+  Sample result() && { return std::move(sample_); }
+
+ private:
+  /// All vertices around v that are nearer than its spacing, along edges.
+  void cover(int v, int entry) {
+    const auto reach = [&](int u, double distance) {
+      if (distance >= spacing_[v] || (owner_[u] == entry && distance >= distance_[u])) return;
+      owner_[u] = entry;
+      distance_[u] = distance;
+      queue_.emplace(distance, u);
+    };
+    reach(v, 0);
+    while (!queue_.empty()) {
+      const auto [distance, at] = queue_.top();
+      queue_.pop();
+      if (distance > distance_[at]) continue;
+      graph_.visit(at, [&, from = distance](int u, double length) { reach(u, from + length); });
+    }
+  }
+
+  const VertexGraph& graph_;
+  const std::vector<double>& spacing_;
+  std::vector<int> owner_;
+  std::vector<char> taken_;
+  std::vector<double> distance_;  ///< from the owner
+  Queue queue_;
+  Sample sample_;
+};
+
+}  // namespace
+
+Sample sample_vertices(const Chart& chart, const std::vector<char>& held, double spacing) {
+  const VertexGraph graph = graph_of(chart);
+  const Spacing wanted = grown_spacing(chart, graph, spacing);
+  Sampling sampling(graph, wanted.at);
+  for (const std::vector<int>& loop : chart.boundary_loops) {
+    for (const int v : loop) sampling.take(v);
+  }
+  for (int v = 0; v < chart.vertex_count(); ++v) {
+    if (held[v] && !sampling.taken(v)) sampling.take(v);
+  }
+  for (const int v : wanted.order) {
+    if (!sampling.covered(v)) sampling.take(v);
+  }
+  return std::move(sampling).result();
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,71 @@
+// The squeeze: all starts and gaps on coarse charts, only the best of them on the fine ones.
+#include "coarsen/coarse_atlas.h"
+#include "reduce/squeeze.h"
+
+namespace atlas_refine {
+namespace {
+
+// What slides slowly slides on the coarse charts, where that costs little: fine ones would stop short of it.
+constexpr double kLeastChange = 2e-5;
+constexpr double kNegligible = 1e-9;
+
+bool holds(const ReduceResult& result) { return result.reached && result.within_limit; }
+
+/// The fine charts from where the coarse ones have ended.
+std::optional<std::vector<Chart>> carried_over(const CoarseAtlas& coarse, std::vector<Chart> charts, const Objective& objective,
+                                               const std::vector<std::vector<Vec2>>& coarse_uvs) {
+  auto uvs = prolonged(coarse, charts, objective, coarse_uvs);
+  if (!uvs) return std::nullopt;
+  for (std::size_t c = 0; c < charts.size(); ++c) charts[c].uvs = std::move((*uvs)[c]);
+  return charts;
+}
+
+std::optional<ReduceResult> polish(const std::vector<Chart>& start, const Objective& objective, const Squeezed& squeezed,
+                                   const SqueezeOptions& options, Monitor& monitor) {
+  const ReduceProblem problem{.charts = start,
+                              .objective = objective,
+                              .gap = squeezed.gap,
+                              .box_aspect = options.box_aspect,
+                              .pe_target = options.pe_bound,
+                              .threads = options.threads,
+                              .freedom = options.freedom,
+                              .frame = squeezed.outcome.frame,
+                              .warm = squeezed.outcome.end};
+  ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) { monitor.report(0.97, progress.pe); });
+  if (!holds(result)) return std::nullopt;
+  return result;
+}
+
+std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts, const Objective& objective,
+                                         const SqueezeOptions& options, Monitor& monitor) {
+  const std::vector<Chart>& charts = starts.front().charts;
+  const auto coarse = coarsen(charts, objective, options.freedom);
+  if (!coarse) return std::nullopt;
+  std::vector<PlacedCharts> coarse_starts;
+  for (const PlacedCharts& start : starts) coarse_starts.push_back(restricted(*coarse, start));
+  SqueezeOptions patiently = options;
+  patiently.least_change = kLeastChange;
+  patiently.negligible = kNegligible;
+  Squeezed out = squeeze_directly(coarse_starts, coarse->objective, patiently, monitor);
+  if (!holds(out.outcome)) return std::nullopt;
+  const auto start = carried_over(*coarse, charts, objective, out.outcome.uvs);
+  if (!start) return std::nullopt;
+  auto result = polish(*start, objective, out, options, monitor);
+  if (!result) return std::nullopt;
+  out.iterations += result->iterations;
+  out.outcome = std::move(*result);
+  return out;
+}
+
+}  // namespace
+
+Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
+                 Monitor& monitor) {
+  // Under a limit of distortion charts hold their PE until they have relaxed: that is for the fine ones to find out.
+  if (options.max_distortion == 0) {
+    if (auto out = squeeze_coarsely(starts, objective, options, monitor)) return std::move(*out);
+  }
+  return squeeze_directly(starts, objective, options, monitor);
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,81 @@
+// The squeeze from coarse to fine against the direct one.
+#include <gtest/gtest.h>
+
+#include "charts.h"
+#include "reduce/squeeze.h"
+#include "shapes.h"
+
+namespace atlas_refine {
+namespace {
+
+using testing::charts_of;
+
+constexpr double kFine = 0.014;
+
+SqueezeOptions options_at(double pe_bound) { return {.pe_bound = pe_bound, .gaps = {Gap{}}}; }
+
+void expect_the_same_optimum(const std::vector<Chart>& charts, const SqueezeOptions& options) {
+  Monitor monitor;
+  const Objective objective = make_objective(charts);
+  const Squeezed direct = squeeze_directly({{charts}}, objective, options, monitor);
+  const Squeezed fast = squeeze({{charts}}, objective, options, monitor);
+  ASSERT_TRUE(direct.outcome.reached && fast.outcome.reached);
+  EXPECT_FALSE(testing::same_bits(fast.outcome.uvs[0], direct.outcome.uvs[0]));  // it did go another way
+  EXPECT_NEAR(fast.outcome.energy, direct.outcome.energy, 3e-4);
+  const std::vector<Chart> after = testing::with_uvs(charts, fast.outcome.uvs);
+  testing::expect_certified(after);
+  EXPECT_GE(testing::packing_efficiency(after), options.pe_bound);
+  if (charts.size() > 1) {
+    EXPECT_GE(gap_between_charts(after), fast.gap.length(testing::box_sides(after)) * (1 - 1e-9));
+  }
+}
+
+TEST(CoarseToFine, AnEndIsAStartThatIsThereAlready) {
+  std::vector<Chart> charts = charts_of(shapes::mesh(shapes::u_shape(), 0.05));
+  const ReduceResult first = reduce_distortion({.charts = charts, .gap = Gap{}, .pe_target = 0.8});
+  charts[0].uvs = first.uvs[0];
+  const ReduceResult second = reduce_distortion({.charts = charts, .gap = Gap{}, .pe_target = 0.8, .warm = first.end});
+  EXPECT_EQ(second.status, ReduceStatus::Converged);
+  EXPECT_LE(second.iterations, 5);
+  EXPECT_NEAR(second.energy, first.energy, 1e-5);
+  EXPECT_TRUE(second.reached);
+}
+
+TEST(CoarseToFine, EndsAtTheOptimumOfTheDirectSqueeze) {
+  expect_the_same_optimum(charts_of(shapes::mesh(shapes::u_shape(), kFine)), options_at(0.8));
+  expect_the_same_optimum(charts_of(shapes::mesh(shapes::star(), kFine)), options_at(0.6));
+}
+
+TEST(CoarseToFine, TakesHolesAndSeveralCharts) {
+  expect_the_same_optimum(charts_of(shapes::mesh(shapes::ring(), kFine)), options_at(0.65));
+  expect_the_same_optimum(
+      charts_of(shapes::combine({shapes::mesh(shapes::c_shape(), kFine),
+                                 shapes::mesh(shapes::transformed(shapes::star(), 1, 0.3, {1.3, 0.1}), kFine),
+                                 shapes::mesh(shapes::transformed(shapes::disk(0.1), 1, 0, {0.5, 1}), 0.05)})),
+      options_at(0.6));
+}
+
+TEST(CoarseToFine, KeepsTheShapesOfChartsThatOnlyMove) {
+  const std::vector<Chart> charts = charts_of(shapes::combine(
+      {shapes::mesh(shapes::c_shape(), kFine), shapes::mesh(shapes::transformed(shapes::star(), 1, 0.3, {1.3, 0.1}), kFine)}));
+  SqueezeOptions options = options_at(0.45);
+  options.freedom = {Freedom::Bends, Freedom::Moves};
+  expect_the_same_optimum(charts, options);
+}
+
+TEST(CoarseToFine, TheBitsDoNotDependOnTheThreads) {
+  const std::vector<Chart> charts = charts_of(shapes::mesh(shapes::comb(), kFine));
+  const auto run = [&](int threads) {
+    Monitor monitor;
+    SqueezeOptions options = options_at(0.8);
+    options.threads = threads;
+    return squeeze({{charts}, {charts}}, make_objective(charts), options, monitor).outcome.uvs[0];
+  };
+  const std::vector<Vec2> one = run(1);
+  EXPECT_TRUE(testing::same_bits(one, run(2)));
+  EXPECT_TRUE(testing::same_bits(one, run(8)));
+  EXPECT_TRUE(testing::same_bits(one, run(1)));
+}
+
+}  // namespace
+}  // namespace atlas_refine
