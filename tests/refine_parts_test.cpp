@@ -192,7 +192,17 @@ void expect_whole_cut(const Atlas& atlas, const CutMesh& cut) {
 
 TEST(Stacks, ChartsOfWhichOneHasATipAreCutAlike) {
   // The tip is many vertices at one place: edges from them are one edge in space on the cone, and several on the sheet.
-  const Atlas tip = cone(8);
+  const Atlas quads = cone(8);
+  Atlas tip{quads.name, quads.positions, {0}, {}, {}};  // in triangles, so that all are divided alike
+  for (int f = 0; f < quads.face_count(); ++f) {
+    for (const std::array<int, 3>& three : {std::array{0, 1, 2}, {0, 2, 3}}) {
+      for (const int k : three) {
+        tip.corner_vertices.push_back(quads.corner_vertices[quads.face_offsets[f] + k]);
+        tip.corner_uvs.push_back(quads.corner_uvs[quads.face_offsets[f] + k]);
+      }
+      tip.face_offsets.push_back(tip.corner_count());
+    }
+  }
   Atlas flat = tip;
   for (int c = 0; c < flat.corner_count(); ++c)
     flat.positions[flat.corner_vertices[c]] = {flat.corner_uvs[c].x(), flat.corner_uvs[c].y(), 0};

@@ -84,7 +84,7 @@ TEST(Sheets, FrontAndBackAreTwoCharts) {
 
 /// Length in space of the edges that one face only has; vertices of equal position are one.
 double open_length(const std::vector<Vec3>& positions, const std::vector<int>& offsets, const std::vector<int>& vertices) {
-  const std::vector<int> place = places(positions);
+  const std::vector<int> place = places({"", positions, {}, {}, {}});
   std::map<std::pair<int, int>, int> faces;
   for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
     for (int c = offsets[f]; c < offsets[f + 1]; ++c) {

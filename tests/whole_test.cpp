@@ -14,7 +14,7 @@ std::optional<double> without_cuts(const Atlas& atlas, double pe_bound, double m
   const InputAtlas input = read_atlas(atlas, options.box_aspect);
   Monitor monitor;
   Journal journal(monitor, nullptr, options.box_aspect);
-  return distortion_without_cuts({input, options, monitor, journal, 1}, most);
+  return distortion_without_cuts({input, options, monitor, journal, 1, options}, most);
 }
 
 TEST(WithoutCuts, IsWhatTheSqueezeComesTo) {

@@ -92,16 +92,16 @@ PlacedCharts place(const Refinement& run, const std::vector<Chart>& charts, cons
 }
 
 std::vector<Gap> gaps_of(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom,
-                         double most_covered = 1) {
+                         double most_taken = 1) {
   const RefineOptions& options = run.options;
   if (options.gap) return {*options.gap};
-  if (!any_fixed(freedom)) return automatic_gaps(charts, options.pe_bound, options.box_aspect, 0, most_covered);
+  if (!any_fixed(freedom)) return automatic_gaps(charts, options.pe_bound, options.box_aspect, 0, most_taken);
   const Box texture{Vec2::Zero(), Vec2(options.box_aspect, 1)};
   double taken = 0;
   for (std::size_t c = 0; c < charts.size(); ++c) {
     if (is_fixed(freedom, c)) taken += area_within(charts[c], texture);
   }
-  return automatic_gaps(movable_of(charts, freedom), options.pe_bound, options.box_aspect, taken / texture.area(), most_covered);
+  return automatic_gaps(movable_of(charts, freedom), options.pe_bound, options.box_aspect, taken / texture.area(), most_taken);
 }
 
 void warn_of_gap(const Refinement& run, const Gap& gap, const std::string& why) {
@@ -209,7 +209,7 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
     out.atlas = with_uvs(std::move(out.atlas), uvs_of(placed.charts));
     out.atlas.frame = placed.frame;
   }
-  if (!none_bends(freedom) && !holds_bound(run, placed, kRounding)) gaps = gaps_of(run, pieces, freedom, kMostCoveredBent);
+  if (!none_bends(freedom) && !holds_bound(run, placed, kRounding)) gaps = gaps_of(run, pieces, freedom, kMostTakenBent);
   run.journal.begin_stage("squeeze", range.part(0.25, 1));
   std::optional<PlacedCharts> own;
   if (keeps_place && !options.align_axes && certify_charts(pieces, {}, freedom).valid())
@@ -221,7 +221,7 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
 std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas& atlas, bool keeps_place, double most) {
   const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), atlas);
   const std::vector<Chart> pieces = meshes_of(atlas);
-  const std::vector<Gap> gaps = gaps_of(run, pieces, freedom, kMostCoveredBent);
+  const std::vector<Gap> gaps = gaps_of(run, pieces, freedom, kMostTakenBent);
   // The artist's layout spares a packing.
   std::optional<PlacedCharts> start;
   if (keeps_place) start = own_layout(run, pieces, freedom, gaps.front());

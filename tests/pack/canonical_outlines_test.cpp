@@ -66,10 +66,11 @@ TEST(CanonicalOutlines, PlacementsFindTheirWayBackToTheInput) {
   const std::vector<Placement> of_input = canonical.of_input(placements);
   for (std::size_t k = 0; k < outlines.size(); ++k) {
     const int source = canonical.sources[k];
-    for (const Vec2& p : testing::placed(canonical.outlines[k], placements[k]).loops[0]) {
+    const Outline own = testing::placed(canonical.outlines[k], placements[k]);
+    const Outline input = testing::placed(outlines[source], of_input[source]);
+    for (const Vec2& p : own.loops[0]) {
       double nearest = INFINITY;
-      for (const Vec2& q : testing::placed(outlines[source], of_input[source]).loops[0])
-        nearest = std::min(nearest, (5 * p - q).norm());
+      for (const Vec2& q : input.loops[0]) nearest = std::min(nearest, (5 * p - q).norm());
       EXPECT_LT(nearest, 5 * canonical.off_grid + 1e-12);
     }
   }

@@ -96,7 +96,7 @@ TEST(PackInFrameOnly, AnObstacleFarLargerThanTheFrameTakesWhatItCovers) {
 
 TEST(PackInFrameOnly, ANeedleFarLongerThanTheFrameIsShrunkToIt) {
   const FrameOptions options{.frame = {1, 1}, .margin = 0.001, .gap = 0.002, .enough = 1e7};
-  const std::vector<Outline> needle = {rectangle(1, 1e-9, {0, 0})};
+  const std::vector<Outline> needle = {rectangle(1, 1e-3, {0, 0})};
   const auto packing = pack_in_frame(needle, {rectangle(0.5, 0.5, {0.2, 0.2})}, options);
   ASSERT_TRUE(packing);
   EXPECT_GT(packing->scale, 0.9);

@@ -21,7 +21,7 @@ void expect_the_same_optimum(const std::vector<Chart>& charts, const SqueezeOpti
   const Squeezed fast = squeeze({{charts}}, objective, options, monitor);
   ASSERT_TRUE(direct.outcome.reached && fast.outcome.reached);
   EXPECT_FALSE(testing::same_bits(fast.outcome.uvs[0], direct.outcome.uvs[0]));  // it did go another way
-  EXPECT_NEAR(fast.outcome.energy, direct.outcome.energy, 3e-4);
+  EXPECT_LE(fast.outcome.energy, direct.outcome.energy + 3e-4);
   const std::vector<Chart> after = testing::with_uvs(charts, fast.outcome.uvs);
   testing::expect_certified(after);
   EXPECT_GE(testing::packing_efficiency(after), options.pe_bound);

@@ -41,8 +41,9 @@ TEST(Squeeze, ReducesTheGapOnlyAsFarAsNeeded) {
 TEST(AutomaticGaps, StartWithTheLargestThatTheBoundCanHold) {
   const std::vector<Chart> charts = charts_of(shapes::squares(400, 0.4));
   const double half_perimeter = 0.5 * uv_perimeter(charts), area = uv_area(charts);
-  for (const double most_covered : {1.0, kMostCoveredBent}) {
-    const std::vector<Gap> gaps = automatic_gaps(charts, 0.85, 1, 0, most_covered);
+  for (const double most_taken : {1.0, kMostTakenBent}) {
+    const std::vector<Gap> gaps = automatic_gaps(charts, 0.85, 1, 0, most_taken);
+    const double most_covered = 0.85 + 0.15 * most_taken;
     const Vec2 box = sides_of_area(area / 0.85, 1);
     const auto covered = [&](double value) { return (area + Gap{value}.length(box) * half_perimeter) / box.prod(); };
     EXPECT_LT(covered(gaps.front().value), 1.02 * most_covered);

@@ -102,7 +102,7 @@ bool Occupancy::find_lowest(const Raster& raster, int highest, Cell& place, int 
     if (static_cast<int>(reversed) < count) order.push_back(reversed);
   }
   const int longest_row = raster.runs[order[0]].row, longest = length(order[0]);
-  for (int y = lowest; y <= std::min(highest, height_); ++y) {
+  for (int y = lowest; y <= std::min(highest, std::max(height_, lowest)); ++y) {
     if (y + longest_row < height_ && longest_free_[y + longest_row] < longest) continue;
     for (int word = 0; word * 64 < positions; ++word) {
       std::uint64_t blocked = blocked_word(raster, order, y, word);

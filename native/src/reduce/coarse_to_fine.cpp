@@ -1,5 +1,9 @@
 // The squeeze: all starts and gaps on coarse charts, only the best of them on the fine ones.
+#include <algorithm>
+
 #include "coarsen/coarse_atlas.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
 #include "reduce/squeeze.h"
 
 namespace atlas_refine {
@@ -20,8 +24,25 @@ std::optional<std::vector<Chart>> carried_over(const CoarseAtlas& coarse, std::v
   return charts;
 }
 
+/// The floors of coarse vertices at the fine ones that they are; all others are inside.
+WarmStart warm_start(const CoarseAtlas& coarse, const std::vector<Chart>& charts, const Squeezed& squeezed) {
+  WarmStart out = squeezed.outcome.end;
+  auto floor = squeezed.outcome.end.own_floor.begin();
+  out.own_floor.clear();
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    std::vector<double> own(charts[c].vertex_count(), squeezed.gap.value);
+    if (coarse.charts[c]) {
+      for (const int v : coarse.charts[c]->kept) own[v] = *floor++;
+    } else {
+      for (double& f : own) f = *floor++;
+    }
+    out.own_floor.insert(out.own_floor.end(), own.begin(), own.end());
+  }
+  return out;
+}
+
 std::optional<ReduceResult> polish(const std::vector<Chart>& start, const Objective& objective, const Squeezed& squeezed,
-                                   const SqueezeOptions& options, Monitor& monitor) {
+                                   const WarmStart& warm, const SqueezeOptions& options, Monitor& monitor) {
   const ReduceProblem problem{.charts = start,
                               .objective = objective,
                               .gap = squeezed.gap,
@@ -30,10 +51,17 @@ std::optional<ReduceResult> polish(const std::vector<Chart>& start, const Object
                               .threads = options.threads,
                               .freedom = options.freedom,
                               .frame = squeezed.outcome.frame,
-                              .warm = squeezed.outcome.end};
+                              .warm = warm};
   ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) { monitor.report(0.97, progress.pe); });
   if (!holds(result)) return std::nullopt;
   return result;
+}
+
+/// The least gap between far borders of one chart, as a fraction of the charts' box; no more than `most` of it.
+double gap_within(const std::vector<Chart>& charts, double most) {
+  const double diagonal = uv_box(charts).diagonal(), far = kFarArc * diagonal;
+  const std::vector<double> within = gap_within_charts(charts, far * dirichlet_sums(charts).best_scale(), most * diagonal);
+  return std::min(most, *std::min_element(within.begin(), within.end()) / diagonal);
 }
 
 std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts, const Objective& objective,
@@ -50,8 +78,13 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   if (!holds(out.outcome)) return std::nullopt;
   const auto start = carried_over(*coarse, charts, objective, out.outcome.uvs);
   if (!start) return std::nullopt;
-  auto result = polish(*start, objective, out, options, monitor);
+  auto result = polish(*start, objective, out, warm_start(*coarse, charts, out), options, monitor);
   if (!result) return std::nullopt;
+  // Borders that turned to face each other on the way may have come nearer than those of a direct squeeze do.
+  constexpr double kNearer = 0.8;
+  std::vector<Chart> end = *start;
+  for (std::size_t c = 0; c < end.size(); ++c) end[c].uvs = result->uvs[c];
+  if (gap_within(end, kNearer * out.gap.value) < kNearer * gap_within(charts, out.gap.value)) return std::nullopt;
   out.iterations += result->iterations;
   out.outcome = std::move(*result);
   return out;

@@ -62,10 +62,9 @@ std::vector<double> measure_own_floors(const ReduceModel& model) {
   const Boundary& boundary = model.boundary;
   const std::vector<Vec2>& x = model.start.x;
   const double unit = gap_unit(model, model.start.box);
-  const double far_arc = far_arc_length(model, model.start.box);
   std::vector<double> floors(boundary.size(), model.gap.value);
   for (const PointEdge& pair : near_pairs(boundary, x, {}, model.gap.value * unit)) {
-    if (moves_as_one(model, pair) || !of_one_piece(boundary, pair) || boundary.arc_between(pair.point, pair.edge) < far_arc)
+    if (moves_as_one(model, pair) || !of_one_piece(boundary, pair) || boundary.arc_between(pair.point, pair.edge) < model.far_arc)
       continue;
     const Closest nearest = closest(boundary, x, pair);
     if (faces_outside(boundary, x, pair, nearest))
@@ -77,7 +76,6 @@ std::vector<double> measure_own_floors(const ReduceModel& model) {
 ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step) {
   const Boundary& boundary = model.boundary;
   const double unit = gap_unit(model, state.box);
-  const double far_arc = far_arc_length(model, state.box);
   ContactSet found;
   for (const PointEdge& pair : near_pairs(boundary, state.x, step, model.gap.value * unit + model.range)) {
     if (moves_as_one(model, pair)) continue;
@@ -86,7 +84,7 @@ ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, con
       const Closest nearest = closest(boundary, state.x, pair);
       if (!faces_outside(boundary, state.x, pair, nearest)) continue;
       const double arc = boundary.arc_between(pair.point, pair.edge);
-      contact.floor_fraction = arc < far_arc ? 0 : model.own_floor[pair.point];
+      contact.floor_fraction = arc < model.far_arc ? 0 : model.own_floor[pair.point];
       contact.range = std::min(model.range, kRangePerArc * arc);
       // Borders that have turned to face each other below the floor need not part again.
       if (nearest.distance <= contact.floor_fraction * unit) contact.floor_fraction = 0.9 * nearest.distance / unit;
@@ -94,6 +92,13 @@ ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, con
     found.push_back(contact);
   }
   return found;
+}
+
+void lower_own_floors(const ContactSet& contacts, ReduceModel& model) {
+  for (const Contact& contact : contacts) {
+    double& floor = model.own_floor[contact.pair.point];
+    if (contact.floor_fraction > 0) floor = std::min(floor, contact.floor_fraction);
+  }
 }
 
 double barrier(const ReduceModel& model, const ReduceState& state, const ContactSet& contacts) {

@@ -21,6 +21,9 @@ std::vector<double> measure_own_floors(const ReduceModel& model);
 /// Pairs that can come into the barrier's reach while `state` moves along `step` (may be empty).
 ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step = {});
 
+/// Borders that had to be let below their floor may come no nearer from then on.
+void lower_own_floors(const ContactSet& contacts, ReduceModel& model);
+
 /// Of contacts and walls; infinite where one is crossed.
 double barrier(const ReduceModel& model, const ReduceState& state, const ContactSet& contacts);
 /// Smallest distance beyond its floor of any contact, as a fraction of its range; at most 1.

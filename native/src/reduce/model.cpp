@@ -146,17 +146,21 @@ ReduceModel make_model(const ReduceProblem& problem) {
   model.node.resize(model.vertex_count());
   std::iota(model.node.begin(), model.node.end(), 0);
   if (!model.freedom.empty()) attach(problem.charts, model);
-  model.own_floor = measure_own_floors(model);
+  if (problem.warm) {
+    model.far_arc = problem.warm->far_arc / model.objective.unit;
+    for (const int v : model.boundary.vertex) model.own_floor.push_back(problem.warm->own_floor[v]);
+  } else {
+    // As in the box that the target asks for, or borders would come near before they count as far from each other.
+    const double shrinks = model.has_box ? std::min(1.0, std::sqrt(box_pe(model, model.start) / problem.pe_target)) : 1;
+    model.far_arc = kFarArc * shrinks * model.start.box.norm();
+    model.own_floor = measure_own_floors(model);
+  }
   return model;
 }
 
 double gap_unit(const ReduceModel& model, const Vec2& box) {
   if (!model.has_box) return model.open_unit;
   return model.gap.unit == Gap::Unit::BoxDiagonal ? box.norm() : box.maxCoeff();
-}
-
-double far_arc_length(const ReduceModel& model, const Vec2& box) {
-  return kFarArc * (model.has_box ? box.norm() : model.start.box.norm());
 }
 
 double chart_area(const ReduceModel& model, const std::vector<Vec2>& x) {

@@ -33,6 +33,7 @@ struct ReduceModel {
   std::vector<int> node;                    ///< per vertex: what it moves with
   std::vector<Vec2> lever;        ///< per vertex of a fixed piece: its position / height of the box; empty where none is fixed
   double fixed_share = 0;         ///< of the box, that fixed pieces cover
+  double far_arc = 0;             ///< borders of one piece between which the boundary is at least so long face each other
   std::vector<double> own_floor;  ///< per boundary vertex: fraction of the gap unit to far edges of its own piece
   Gap gap;
   double range = 0;  ///< the barrier is felt so far beyond the gap
@@ -51,8 +52,6 @@ ReduceModel make_model(const ReduceProblem& problem);
 
 /// What the gap is a fraction of.
 double gap_unit(const ReduceModel& model, const Vec2& box);
-/// Borders of one piece between which the boundary is at least so long face each other.
-double far_arc_length(const ReduceModel& model, const Vec2& box);
 
 double chart_area(const ReduceModel& model, const std::vector<Vec2>& x);
 double box_pe(const ReduceModel& model, const ReduceState& state);    ///< against the unknown box

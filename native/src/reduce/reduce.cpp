@@ -46,7 +46,7 @@ struct Counters {
 /// The problem with what its tests need.
 struct Task {
   const ReduceProblem& problem;
-  const ReduceModel& model;
+  ReduceModel& model;
 
   bool bounded() const { return model.has_box; }
   bool holds_bound(const Iterate& at) const { return !bounded() || at.pe >= problem.pe_target; }
@@ -71,8 +71,9 @@ Iterate first_iterate(const Task& task) {
 }
 
 /// Gradient of objective + stiffness * barrier and its projected Hessian. The pattern is analysed anew only where a contact asks.
-void assemble(const ReduceModel& model, const ReduceState& state, double stiffness, TriangleSlots& slots, BlockSystem& system) {
+void assemble(ReduceModel& model, const ReduceState& state, double stiffness, TriangleSlots& slots, BlockSystem& system) {
   const ContactSet contacts = find_contacts(model, state);
+  lower_own_floors(contacts, model);
   if (!covers(system.matrix, model, contacts)) {
     auto pairs = triangle_sides(model.triangles);
     const auto coupled = coupled_nodes(model, state, contacts);
@@ -232,7 +233,12 @@ std::vector<double> energy_of_triangles(const Task& task, const std::vector<Vec2
 ReduceResult result_of(const Task& task, const Iterate& best, ReduceStatus status, double stiffness, int iterations) {
   const ReduceModel& model = task.model;
   ReduceResult out{.uvs = by_piece(model, best.state.x, model.objective.unit), .status = status};
-  out.end = {model.objective.unit * best.state.box, model.objective.unit * model.range, best.price};
+  out.end = {.box = model.objective.unit * best.state.box,
+             .range = model.objective.unit * model.range,
+             .price = best.price,
+             .far_arc = model.objective.unit * model.far_arc,
+             .own_floor = std::vector<double>(model.vertex_count(), model.gap.value)};
+  for (int e = 0; e < model.boundary.size(); ++e) out.end.own_floor[model.boundary.vertex[e]] = model.own_floor[e];
   if (task.problem.frame.x() > 0) out.frame = out.end.box;
   out.reached = task.holds_bound(best);
   out.within_limit = task.within_limit(best);
@@ -254,7 +260,7 @@ ReduceResult result_of(const Task& task, const Iterate& best, ReduceStatus statu
 }  // namespace
 
 ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor& monitor) {
-  const ReduceModel model = make_model(problem);
+  ReduceModel model = make_model(problem);
   const Task task{problem, model};
   Iterate at = first_iterate(task);
   Iterate best = at;

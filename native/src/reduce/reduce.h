@@ -19,6 +19,9 @@ struct WarmStart {
   Vec2 box = Vec2::Zero();  ///< [0, box.x] x [0, box.y], which the charts lie in
   double range = 0;         ///< the barrier was felt so far beyond the gap
   double price = 0;         ///< as ReduceResult::price
+  double far_arc = 0;       ///< borders of one chart between which its boundary is at least so long face each other
+  /// Per vertex of all charts, one after the other: what is kept to far parts of the vertex's own border, as Gap::value.
+  std::vector<double> own_floor = {};
 };
 
 struct ReduceProblem {

@@ -103,7 +103,7 @@ ReduceResult best_at(const Gap& gap, const std::vector<PlacedCharts>& starts, co
 }  // namespace
 
 std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_bound, double box_aspect, double fixed_share,
-                                double most_covered) {
+                                double most_taken) {
   constexpr double kLeastShare = 0.01;  // of the box, for the charts
   const double perimeter = uv_perimeter(charts);
   const double area = uv_area(charts);
@@ -112,7 +112,7 @@ std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_boun
   const auto leaves_room = [&](const Gap& gap) {
     const double g = gap.length(box);
     const double grown = area + 0.5 * g * perimeter + 0.25 * std::numbers::pi * g * g * static_cast<double>(charts.size());
-    return grown + fixed_share * box.prod() <= most_covered * (box.x() + g) * (box.y() + g);
+    return grown + fixed_share * box.prod() <= (pe_bound + most_taken * (1 - pe_bound)) * (box.x() + g) * (box.y() + g);
   };
   std::vector<Gap> gaps;
   Gap gap;

@@ -30,16 +30,16 @@ struct Squeezed {
   std::string gap_note;  ///< why the gaps before it were given up, in words; empty for the first
 };
 
-/// What grown charts may cover where they have to bend to hold the bound: beyond it they jam, or pay for each other's corners.
-/// Rectangles that are only moved may cover all. Measured on ten atlases of 120 to 4740 charts: up to 0.931 the gap was kept at
-/// a price below 0.6, from 0.950 on it was given up or cost 2 % of E_d and more.
-inline constexpr double kMostCoveredBent = 0.945;
+/// The part of what the bound leaves free that gaps may take where charts have to bend: beyond it they jam, or pay for each
+/// other's corners. Rectangles that are only moved may take all. Measured on ten atlases of 120 to 4740 charts at 0.8: up to 0.66
+/// the gap was kept at a price below 0.6, from 0.75 on it was given up or cost 2 % of E_d and more.
+inline constexpr double kMostTakenBent = 0.725;
 
 /// The gaps that an automatic one may take: the default and smaller ones, down to a sixtieth. Those that the charts' borders
-/// alone leave no room for at the bound are left out, but for the last: charts grown by half the gap would cover more than
-/// `most_covered` of the box. `fixed_share` of it is covered by other charts.
+/// alone leave no room for at the bound are left out, but for the last: charts grown by half the gap would take more than
+/// `most_taken` of what is free. `fixed_share` of the box is covered by other charts.
 std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_bound, double box_aspect, double fixed_share = 0,
-                                double most_covered = 1);
+                                double most_taken = 1);
 
 /// Reduces from every start (each free of flips, crossings and nearer charts than the first gap) and keeps the result of least
 /// distortion that holds the bound. Where none does, or the bound costs much distortion with this gap, the next one is tried, and
