@@ -24,20 +24,17 @@ std::optional<std::vector<Chart>> carried_over(const CoarseAtlas& coarse, std::v
   return charts;
 }
 
-/// The floors of coarse vertices at the fine ones that they are; all others are inside.
+/// The end of the coarse charts, told by the fine ones' vertices.
 WarmStart warm_start(const CoarseAtlas& coarse, const std::vector<Chart>& charts, const Squeezed& squeezed) {
-  WarmStart out = squeezed.outcome.end;
-  auto floor = squeezed.outcome.end.own_floor.begin();
-  out.own_floor.clear();
+  std::vector<int> fine;  // of each coarse vertex
+  int first = 0;
   for (std::size_t c = 0; c < charts.size(); ++c) {
-    std::vector<double> own(charts[c].vertex_count(), squeezed.gap.value);
-    if (coarse.charts[c]) {
-      for (const int v : coarse.charts[c]->kept) own[v] = *floor++;
-    } else {
-      for (double& f : own) f = *floor++;
-    }
-    out.own_floor.insert(out.own_floor.end(), own.begin(), own.end());
+    const int count = coarse.charts[c] ? static_cast<int>(coarse.charts[c]->kept.size()) : charts[c].vertex_count();
+    for (int v = 0; v < count; ++v) fine.push_back(first + (coarse.charts[c] ? coarse.charts[c]->kept[v] : v));
+    first += charts[c].vertex_count();
   }
+  WarmStart out = squeezed.outcome.end;
+  for (NearBorder& near : out.near_borders) near = {fine[near.vertex], fine[near.edge], near.floor};
   return out;
 }
 

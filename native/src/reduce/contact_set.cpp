@@ -11,6 +11,8 @@ namespace {
 
 // Within a piece the barrier reaches at most this share of the boundary between the two points: else corners repel themselves.
 constexpr double kRangePerArc = 0.3;
+// The floor of borders that are nearer than it already, as a part of their distance.
+constexpr double kOfDistance = 0.9;
 // The pattern holds pairs up to this multiple of the reach, so that it changes seldom.
 constexpr double kPatternReach = 1.7;
 
@@ -50,6 +52,17 @@ void add_gradient(const ReduceModel& model, int vertex, const Vec2& gradient, Bl
   system.gradient[model.node[vertex]] += hangs_on_box(model, vertex) ? Vec2(model.lever[vertex].dot(gradient), 0) : gradient;
 }
 
+/// The gap, or what is noted of the vertex and an edge around there.
+double floor_between(const ReduceModel& model, const PointEdge& pair) {
+  const auto by_vertex = [](const NearBorder& near, int vertex) { return near.vertex < vertex; };
+  auto at = std::lower_bound(model.near_borders.begin(), model.near_borders.end(), pair.point, by_vertex);
+  double floor = model.gap.value;
+  for (; at != model.near_borders.end() && at->vertex == pair.point; ++at) {
+    if (model.boundary.arc_between(at->edge, pair.edge) < model.far_arc) floor = std::min(floor, at->floor);
+  }
+  return floor;
+}
+
 /// Slack of a contact beyond its floor, in its range.
 double slack(const ReduceModel& model, const ReduceState& state, const Contact& contact, double unit) {
   const Closest nearest = closest(model.boundary, state.x, contact.pair);
@@ -58,19 +71,19 @@ double slack(const ReduceModel& model, const ReduceState& state, const Contact& 
 
 }  // namespace
 
-std::vector<double> measure_own_floors(const ReduceModel& model) {
+std::vector<NearBorder> measure_near_borders(const ReduceModel& model) {
   const Boundary& boundary = model.boundary;
   const std::vector<Vec2>& x = model.start.x;
   const double unit = gap_unit(model, model.start.box);
-  std::vector<double> floors(boundary.size(), model.gap.value);
+  std::vector<NearBorder> near;
   for (const PointEdge& pair : near_pairs(boundary, x, {}, model.gap.value * unit)) {
     if (moves_as_one(model, pair) || !of_one_piece(boundary, pair) || boundary.arc_between(pair.point, pair.edge) < model.far_arc)
       continue;
     const Closest nearest = closest(boundary, x, pair);
-    if (faces_outside(boundary, x, pair, nearest))
-      floors[pair.point] = std::min(floors[pair.point], 0.999 * nearest.distance / unit);
+    if (0.999 * nearest.distance < model.gap.value * unit && faces_outside(boundary, x, pair, nearest))
+      near.push_back({pair.point, pair.edge, 0.999 * nearest.distance / unit});
   }
-  return floors;
+  return near;
 }
 
 ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step) {
@@ -84,21 +97,25 @@ ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, con
       const Closest nearest = closest(boundary, state.x, pair);
       if (!faces_outside(boundary, state.x, pair, nearest)) continue;
       const double arc = boundary.arc_between(pair.point, pair.edge);
-      contact.floor_fraction = arc < model.far_arc ? 0 : model.own_floor[pair.point];
+      contact.floor_fraction = arc < model.far_arc ? 0 : floor_between(model, pair);
       contact.range = std::min(model.range, kRangePerArc * arc);
       // Borders that have turned to face each other below the floor need not part again.
-      if (nearest.distance <= contact.floor_fraction * unit) contact.floor_fraction = 0.9 * nearest.distance / unit;
+      if (nearest.distance <= contact.floor_fraction * unit) contact.floor_fraction = kOfDistance * nearest.distance / unit;
     }
     found.push_back(contact);
   }
   return found;
 }
 
-void lower_own_floors(const ContactSet& contacts, ReduceModel& model) {
+void note_near_borders(const ReduceState& state, const ContactSet& contacts, ReduceModel& model) {
+  const double unit = gap_unit(model, state.box), gap = model.gap.value;
+  std::vector<NearBorder> near;  // ordered by vertex, as contacts are
   for (const Contact& contact : contacts) {
-    double& floor = model.own_floor[contact.pair.point];
-    if (contact.floor_fraction > 0) floor = std::min(floor, contact.floor_fraction);
+    if (contact.floor_fraction == 0 || !of_one_piece(model.boundary, contact.pair)) continue;
+    const double floor = kOfDistance * closest(model.boundary, state.x, contact.pair).distance / unit;
+    if (floor < gap) near.push_back({contact.pair.point, contact.pair.edge, std::max(floor, contact.floor_fraction)});
   }
+  model.near_borders = std::move(near);
 }
 
 double barrier(const ReduceModel& model, const ReduceState& state, const ContactSet& contacts) {

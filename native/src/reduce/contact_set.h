@@ -15,14 +15,14 @@ struct Contact {
 };
 using ContactSet = std::vector<Contact>;
 
-/// ReduceModel::own_floor: the gap, or what the start leaves between two borders of one piece if that is less.
-std::vector<double> measure_own_floors(const ReduceModel& model);
+/// ReduceModel::near_borders of the start.
+std::vector<NearBorder> measure_near_borders(const ReduceModel& model);
 
 /// Pairs that can come into the barrier's reach while `state` moves along `step` (may be empty).
 ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step = {});
 
-/// Borders that had to be let below their floor may come no nearer from then on.
-void lower_own_floors(const ContactSet& contacts, ReduceModel& model);
+/// Writes down which borders of one piece are nearer than the gap now: they may part, and come little nearer from here on.
+void note_near_borders(const ReduceState& state, const ContactSet& contacts, ReduceModel& model);
 
 /// Of contacts and walls; infinite where one is crossed.
 double barrier(const ReduceModel& model, const ReduceState& state, const ContactSet& contacts);

@@ -110,6 +110,16 @@ void attach(const std::vector<Chart>& charts, ReduceModel& model) {
   }
 }
 
+/// By boundary vertices instead of vertices.
+std::vector<NearBorder> at_boundary(const ReduceModel& model, std::vector<NearBorder> near_borders) {
+  std::vector<int> index(model.vertex_count(), -1);
+  for (int e = 0; e < model.boundary.size(); ++e) index[model.boundary.vertex[e]] = e;
+  for (NearBorder& near : near_borders) near = {index[near.vertex], index[near.edge], near.floor};
+  std::sort(near_borders.begin(), near_borders.end(),
+            [](const NearBorder& a, const NearBorder& b) { return a.vertex < b.vertex; });
+  return near_borders;
+}
+
 void set_masses(ReduceModel& model) {
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {
     for (int v : model.triangles[t]) model.masses[v] += model.objective.weight[t] / 3;
@@ -148,12 +158,14 @@ ReduceModel make_model(const ReduceProblem& problem) {
   if (!model.freedom.empty()) attach(problem.charts, model);
   if (problem.warm) {
     model.far_arc = problem.warm->far_arc / model.objective.unit;
-    for (const int v : model.boundary.vertex) model.own_floor.push_back(problem.warm->own_floor[v]);
+    model.near_borders = at_boundary(model, problem.warm->near_borders);
   } else {
-    // As in the box that the target asks for, or borders would come near before they count as far from each other.
-    const double shrinks = model.has_box ? std::min(1.0, std::sqrt(box_pe(model, model.start) / problem.pe_target)) : 1;
-    model.far_arc = kFarArc * shrinks * model.start.box.norm();
-    model.own_floor = measure_own_floors(model);
+    // As in the smallest box that may come, or borders would come near before they count as far from each other.
+    const Vec2& box = model.start.box;
+    const double least = model.has_box ? box.norm() * std::min(1.0, std::sqrt(box_pe(model, model.start) / problem.pe_target))
+                                       : std::sqrt(2 * chart_area(model, model.start.x));
+    model.far_arc = kFarArc * std::min(least, box.norm());
+    model.near_borders = measure_near_borders(model);
   }
   return model;
 }

@@ -31,10 +31,10 @@ struct ReduceModel {
   Boundary boundary;                        ///< all fixed pieces count as one: the first of them
   Freedoms freedom;                         ///< one per piece; empty where all bend
   std::vector<int> node;                    ///< per vertex: what it moves with
-  std::vector<Vec2> lever;        ///< per vertex of a fixed piece: its position / height of the box; empty where none is fixed
-  double fixed_share = 0;         ///< of the box, that fixed pieces cover
-  double far_arc = 0;             ///< borders of one piece between which the boundary is at least so long face each other
-  std::vector<double> own_floor;  ///< per boundary vertex: fraction of the gap unit to far edges of its own piece
+  std::vector<Vec2> lever;  ///< per vertex of a fixed piece: its position / height of the box; empty where none is fixed
+  double fixed_share = 0;   ///< of the box, that fixed pieces cover
+  double far_arc = 0;       ///< borders of one piece between which the boundary is at least so long face each other
+  std::vector<NearBorder> near_borders;  ///< by boundary vertices: pairs of one piece with less than the gap; sorted by the first
   Gap gap;
   double range = 0;  ///< the barrier is felt so far beyond the gap
   double aspect = 0;

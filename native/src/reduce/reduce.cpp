@@ -73,7 +73,7 @@ Iterate first_iterate(const Task& task) {
 /// Gradient of objective + stiffness * barrier and its projected Hessian. The pattern is analysed anew only where a contact asks.
 void assemble(ReduceModel& model, const ReduceState& state, double stiffness, TriangleSlots& slots, BlockSystem& system) {
   const ContactSet contacts = find_contacts(model, state);
-  lower_own_floors(contacts, model);
+  note_near_borders(state, contacts, model);
   if (!covers(system.matrix, model, contacts)) {
     auto pairs = triangle_sides(model.triangles);
     const auto coupled = coupled_nodes(model, state, contacts);
@@ -237,8 +237,9 @@ ReduceResult result_of(const Task& task, const Iterate& best, ReduceStatus statu
              .range = model.objective.unit * model.range,
              .price = best.price,
              .far_arc = model.objective.unit * model.far_arc,
-             .own_floor = std::vector<double>(model.vertex_count(), model.gap.value)};
-  for (int e = 0; e < model.boundary.size(); ++e) out.end.own_floor[model.boundary.vertex[e]] = model.own_floor[e];
+             .near_borders = model.near_borders};
+  for (NearBorder& near : out.end.near_borders)
+    near = {model.boundary.vertex[near.vertex], model.boundary.vertex[near.edge], near.floor};
   if (task.problem.frame.x() > 0) out.frame = out.end.box;
   out.reached = task.holds_bound(best);
   out.within_limit = task.within_limit(best);

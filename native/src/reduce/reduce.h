@@ -14,14 +14,21 @@ namespace atlas_refine {
 /// The engine starts in a box that is a little larger than the charts' own, and the gap follows the box.
 inline constexpr double kStartGap = 1.006;
 
+/// A vertex and a boundary edge of one chart, told by the vertex it starts at, that may come nearer to each other than the gap.
+/// Vertices are numbered through all charts, one after the other.
+struct NearBorder {
+  int vertex;
+  int edge;
+  double floor;  ///< what is kept between them and around there, as Gap::value
+};
+
 /// What a start that ended a problem like this one brings along.
 struct WarmStart {
   Vec2 box = Vec2::Zero();  ///< [0, box.x] x [0, box.y], which the charts lie in
   double range = 0;         ///< the barrier was felt so far beyond the gap
   double price = 0;         ///< as ReduceResult::price
   double far_arc = 0;       ///< borders of one chart between which its boundary is at least so long face each other
-  /// Per vertex of all charts, one after the other: what is kept to far parts of the vertex's own border, as Gap::value.
-  std::vector<double> own_floor = {};
+  std::vector<NearBorder> near_borders = {};
 };
 
 struct ReduceProblem {
