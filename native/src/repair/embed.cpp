@@ -142,7 +142,10 @@ std::optional<Chart> embed(const Chart& chart, Shapes shapes, int threads, Monit
   drop_broken_guards(*start);
   if (Chart better = stretched(*start); certify_charts({better}).valid()) start = std::move(better);
   const std::vector<Chart> charts = {*start};
-  ReduceProblem problem{.charts = charts, .gap = {.value = kGapForLargerBox * Gap{}.value}, .threads = threads};
+  // Shapes may be kept all but exactly: no part of a distortion that is nothing is worth a wait.
+  constexpr double kNegligible = 1e-6;
+  ReduceProblem problem{
+      .charts = charts, .gap = {.value = kGapForLargerBox * Gap{}.value}, .negligible = kNegligible, .threads = threads};
   if (shapes == Shapes::OfUvs) problem.objective = shapes_of_uvs(chart, charts);
   ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
     // The energy falls from far above to near 1: its logarithm tells how far the way is.

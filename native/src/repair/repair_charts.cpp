@@ -21,7 +21,6 @@ using What = ChartRepair::What;
 
 // E_2 above which an embedding anew may serve better, and E_d above which UVs have no shape worth keeping.
 constexpr double kShapeLost = 1.5;
-constexpr double kLikeSurface = 1.1;  // E_d below which the shapes of the surface are those of the UVs, and sooner had
 
 /// One chart after its repair, or why it has none.
 struct Mended {
@@ -81,8 +80,7 @@ double energy(const Chart& chart) { return dirichlet_sums(chart).best_energy(); 
 /// The chart without overlap and its shape kept; nothing where there was none worth it, or it was lost all the same.
 std::optional<Chart> drawn_apart(const Chart& chart, const std::vector<char>& bad, const RepairOptions& options,
                                  Monitor& monitor) {
-  const double own = sums_of_good(chart).best_energy();
-  if (mostly_bad(chart, bad) || own < kLikeSurface || !(own < kShapeLost)) return std::nullopt;
+  if (mostly_bad(chart, bad) || !(sums_of_good(chart).best_energy() < kShapeLost)) return std::nullopt;
   const auto apart = embed(chart, Shapes::OfUvs, options.threads, monitor);
   if (!apart || !(distortion_to_good(chart, *apart) < kShapeLost)) return std::nullopt;
   return apart;
