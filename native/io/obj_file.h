@@ -13,8 +13,8 @@ class ObjFile final : public MeshFile {
  public:
   /// Reads text of v, vt, vn and f records; all other records (groups, materials, lines, comments, ...) are kept unread. Throws
   /// RefineError(BadInput) that names the line where a record cannot be used. A vertex that a face names several times in a row
-  /// is one corner of it; faces with fewer than three different vertices, with a vertex that comes twice but for keyholes, or without a finite UV
-  /// at each corner are not in the atlas.
+  /// is one corner of it; faces with fewer than three different vertices, with a vertex that comes twice but for keyholes, or
+  /// without a finite UV at each corner are not in the atlas.
   static ObjFile parse(std::string text);
 
   const Atlas& atlas() const override { return text_.atlas; }
