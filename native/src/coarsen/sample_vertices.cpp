@@ -89,7 +89,8 @@ Spacing grown_spacing(const Chart& chart, const VertexGraph& graph, double most)
     if (std::isfinite(out.at[v])) queue.emplace(out.at[v], v);
   }
   while (!queue.empty()) {
-    const auto [value, v] = queue.top();
+    const double value = queue.top().first;
+    const int v = queue.top().second;
     queue.pop();
     if (value > out.at[v]) continue;
     out.order.push_back(v);
