@@ -73,7 +73,7 @@ group_names      what messages call the groups
 keep_shape       (F,) flags: charts with such a face are moved, never bent
 locked           (F,) flags: charts with such a face stay where they are, the others go around them in [0, 1]^2
 no_seam          (n, 2) pairs of vertices: edges that no cut runs along; "split" may cross some, which a warning counts
-prefer_seam      (n, 2) pairs of vertices: edges that cuts along edges like to follow
+prefer_seam      (n, 2) pairs of vertices: edges that cuts along edges, and openings of closed charts, like to follow
 triangles        (n, 3) corners: how you divide faces of more than three corners, where you know
 stored           "double" (default) or "float32": the format you will store; the certificate holds for it
 seed             default 1; the same seed gives the same bits on any number of threads

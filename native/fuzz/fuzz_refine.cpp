@@ -6,12 +6,10 @@
 #include <ctime>
 #include <fstream>
 #include <iostream>
-#include <optional>
 
 #include "atlas_refine/refine.h"
 #include "fuzzed_mesh.h"
 #include "fuzzed_options.h"
-#include "input/split_charts.h"
 #include "output_atlas.h"
 
 namespace atlas_refine::fuzz {
@@ -44,16 +42,11 @@ bool takes_part(const ChartReport& chart) {
 }
 
 /// Of each input face the group of the atlas that it is in, -1 where its chart was left, lies on another one or is locked.
-/// Nothing where the program joins faces otherwise than split_charts() does.
-std::optional<std::vector<int>> atlas_of_faces(const Atlas& atlas, const RefineOptions& options, const RefineResult& result) {
-  const std::vector<Chart> charts = split_charts(atlas).charts;
+std::vector<int> atlas_of_faces(const Atlas& atlas, const RefineOptions& options, const RefineResult& result) {
   std::vector<int> groups = options.groups;
   groups.resize(atlas.face_count(), 0);
-  if (std::all_of(result.charts.begin(), result.charts.end(), takes_part)) return groups;
-  if (charts.size() != result.charts.size()) return std::nullopt;
-  for (std::size_t c = 0; c < charts.size(); ++c) {
-    if (takes_part(result.charts[c])) continue;
-    for (const int face : charts[c].triangle_faces) groups[face] = -1;
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    if (!takes_part(result.charts[result.face_charts[f]])) groups[f] = -1;
   }
   return groups;
 }
@@ -73,12 +66,11 @@ Atlas one_of(const Atlas& output, const std::vector<int>& group_of_face, int gro
 }
 
 void check_validity(const Atlas& atlas, const RefineOptions& options, const RefineResult& result) {
-  const auto input_groups = atlas_of_faces(atlas, options, result);
-  if (!input_groups) return;
-  std::vector<int> groups = *input_groups;
+  const std::vector<int> input_groups = atlas_of_faces(atlas, options, result);
+  std::vector<int> groups = input_groups;
   if (result.cut) {
     groups.clear();
-    for (const int source : result.cut->face_sources) groups.push_back((*input_groups)[source]);
+    for (const int source : result.cut->face_sources) groups.push_back(input_groups[source]);
   }
   const Atlas output = testing::output(atlas, result);
   for (int group = 0; group <= *std::max_element(groups.begin(), groups.end()); ++group) {

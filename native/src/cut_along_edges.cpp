@@ -43,18 +43,14 @@ Attempt cut_along_edges(const Refinement& run, CutPlan plan, const ProgressRange
   if (paths.empty()) return {.needless = !has_trails(plan.layout), .failure = "along edges no more than slivers can be cut off"};
   CutAtlas cut = cut_along(plan.atlas, plan.sources, paths);
   mend_pieces(run, plan.freedom, cut, plan.mended);
-  RefineOptions options = run.options;
-  options.relax = options.relax || !options.rectangles.until_input;
-  Solution out = place_and_squeeze({run.input, options, run.monitor, run.journal, run.threads, run.asked}, cut, false, range);
-  if (!holds_bound(run, {.charts = meshes_of(out.atlas), .frame = out.atlas.frame}))
-    return {.failure = "cut along edges, they do not reach the bound"};
-  out.intervention = Intervention::Cut;
-  out.re_embedded = std::move(plan.mended);
-  out.rectangles = report_of(plan);
-  out.rectangles->holes_cut = 0;
+  std::optional<Solution> out = place_and_squeeze_cut(run, cut, range);
+  if (!out) return {.failure = "cut along edges, they do not reach the bound"};
+  out->re_embedded = std::move(plan.mended);
+  out->rectangles = report_of(plan);
+  out->rectangles->holes_cut = 0;
   if (const std::vector<int> whole = charts_left_whole(run, plan.layout, cut); !whole.empty())
     run.journal.fallbacks.push_back(charts_named(whole) + ": along edges no more than slivers can be cut off; left whole");
-  return {.solution = std::move(out)};
+  return {.solution = std::move(*out)};
 }
 
 }  // namespace atlas_refine

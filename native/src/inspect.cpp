@@ -81,7 +81,7 @@ std::vector<int> numbers_of(const std::vector<char>& flags) {
 std::vector<char> find_unwrapped(const ChartSet& set, const std::vector<char>& has_uvs) {
   std::vector<char> out;
   for (const char has : has_uvs) out.push_back(!has);
-  const double side = std::min(1.0, uv_box(set.charts).size().maxCoeff());
+  const double side = collapse_side(set);
   for (const Chart& chart : set.charts) {
     if (!is_collapsed(chart, side)) continue;
     for (const int face : chart.triangle_faces) out[face] = 1;

@@ -218,6 +218,15 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
   return out;
 }
 
+std::optional<Solution> place_and_squeeze_cut(const Refinement& run, const CutAtlas& cut, const ProgressRange& range) {
+  RefineOptions options = run.options;
+  options.relax = options.relax || !options.rectangles.until_input;
+  Solution out = place_and_squeeze({run.input, options, run.monitor, run.journal, run.threads, run.asked}, cut, false, range);
+  if (!holds_bound(run, {.charts = meshes_of(out.atlas), .frame = out.atlas.frame})) return std::nullopt;
+  out.intervention = Intervention::Cut;
+  return out;
+}
+
 std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas& atlas, bool keeps_place, double most) {
   const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), atlas);
   const std::vector<Chart> pieces = meshes_of(atlas);

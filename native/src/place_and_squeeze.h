@@ -13,6 +13,10 @@ namespace atlas_refine {
 /// where they cannot be placed apart.
 Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool keeps_place, const ProgressRange& range);
 
+/// The same for charts that were cut: to the least distortion under the bound, unless the road stops at the input's. Nothing
+/// where they do not reach the bound.
+std::optional<Solution> place_and_squeeze_cut(const Refinement& run, const CutAtlas& cut, const ProgressRange& range);
+
 /// They reach the bound times `spare`, within the largest distortion allowed.
 bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare = 1);
 

@@ -164,16 +164,12 @@ Attempt place_around_locked(const Refinement& run, const CutPlan& plan, CutAtlas
     drop_broken_guards(piece.mesh);
   }
   restore(plan.sources, plan.freedom, cut);
-  RefineOptions options = run.options;
-  options.relax = options.relax || !options.rectangles.until_input;
-  Solution out = place_and_squeeze({run.input, options, run.monitor, run.journal, run.threads, run.asked}, cut, false, range);
-  if (!holds_bound(run, {.charts = meshes_of(out.atlas), .frame = out.atlas.frame}))
-    return {.failure = "cut and placed around the locked ones, they do not reach the bound"};
-  out.intervention = Intervention::Cut;
-  out.re_embedded = plan.mended;
-  out.rectangles = report_of(plan);
-  tell(run, plan, out.atlas, *out.rectangles);
-  return {.solution = std::move(out)};
+  std::optional<Solution> out = place_and_squeeze_cut(run, cut, range);
+  if (!out) return {.failure = "cut and placed around the locked ones, they do not reach the bound"};
+  out->re_embedded = plan.mended;
+  out->rectangles = report_of(plan);
+  tell(run, plan, out->atlas, *out->rectangles);
+  return {.solution = std::move(*out)};
 }
 
 Attempt cut_across_faces(const Refinement& run, const CutPlan& plan, const ProgressRange& range) {

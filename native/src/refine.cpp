@@ -119,8 +119,9 @@ RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, 
                           Journal& journal) {
   journal.begin_stage("input", kInput);
   const UnwrappedTiles tiles = unwrap_tiles(input, options.groups, either(options.locked, options.keep_shape));
-  const Atlas unwrapped = tiles.faces.empty() ? Atlas() : with_corner_uvs(input, tiles.corner_uvs);
-  const Atlas& atlas = tiles.faces.empty() ? input : unwrapped;
+  std::optional<Atlas> moved;
+  if (!tiles.faces.empty()) (moved = input)->corner_uvs = tiles.corner_uvs;
+  const Atlas& atlas = moved ? *moved : input;
   const InputAtlas whole = read_atlas(atlas, options.box_aspect, options.groups);
   Participants participants = take_part(whole.set, options, has_uvs);
   journal.show("input", charts_as_placed(whole.set));
@@ -146,7 +147,7 @@ RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, 
   result.cut = std::move(assembled.cut);
   result.new_seams = std::move(assembled.new_seams);
   restore_locked_corners(whole, options, result);
-  if (!tiles.faces.empty()) tell_of_tiles(tiles, whole, participants, result, journal);
+  tell_of_tiles(tiles, whole, participants, result, journal);
   return result;
 }
 

@@ -93,8 +93,12 @@ def test_no_seam_and_prefer_seam(program, tmp_path):
     edges.write_text("".join(f"{a} {b}\n" for a, b in sorted(cuts)))
     _, told = run(program, tmp_path, text, *rectangles, "--no-seam", edges)
     assert not cuts & {tuple(sorted(pair)) for pair in told["new_seams"]}
+    next_row = 12 + 1
+    beside = {(a + next_row, b + next_row) for a, b in cuts}
+    assert not beside & cuts
+    edges.write_text("".join(f"{a} {b}\n" for a, b in sorted(beside)))
     _, told = run(program, tmp_path, text, *rectangles, "--prefer-seam", edges)
-    assert cuts & {tuple(sorted(pair)) for pair in told["new_seams"]}
+    assert beside & {tuple(sorted(pair)) for pair in told["new_seams"]}
     edges.write_text("0 1 2\n")
     for option in ("--no-seam", "--prefer-seam"):
         assert str(edges) in program.refused(3, tmp_path / "in.obj", "-o", tmp_path / "x.obj", *rectangles, option, edges)

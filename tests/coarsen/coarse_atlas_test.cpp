@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -104,16 +105,23 @@ TEST(CoarseAtlas, TrianglesThatTurnOverOnTheWayBackAreMended) {
   const std::vector<Chart> charts = charts_of(shapes::mesh(shapes::disk(0.5), kFine));
   const Objective objective = make_objective(charts);
   const CoarseAtlas coarse = coarse_of(charts);
-  std::vector<Chart> bent = {coarse.charts[0]->mesh};
-  // One inner vertex goes most of the way to the nearest side of its star.
-  const auto& neighbours = bent[0].triangles;
-  const int inner = bent[0].vertex_count() - 1;
-  const auto star = std::find_if(neighbours.begin(), neighbours.end(),
-                                 [&](const Triangle& t) { return std::find(t.begin(), t.end(), inner) != t.end(); });
+  const CoarseChart& own = *coarse.charts[0];
+  // One inner vertex goes most of the way to the far side of one of its triangles.
+  std::vector<Vec2> bent = own.mesh.uvs;
+  const int inner = own.mesh.vertex_count() - 1;
+  const auto of_inner = std::find_if(own.mesh.triangles.begin(), own.mesh.triangles.end(),
+                                     [&](const Triangle& t) { return std::find(t.begin(), t.end(), inner) != t.end(); });
   Vec2 middle = Vec2::Zero();
-  for (const int v : *star) middle += 0.5 * (v == inner ? Vec2(Vec2::Zero()) : bent[0].uvs[v]);
-  bent[0].uvs[inner] += 0.8 * (middle - bent[0].uvs[inner]);
-  const auto uvs = prolonged(coarse, charts, objective, {bent[0].uvs});
+  for (const int v : *of_inner) middle += 0.5 * (v == inner ? Vec2(Vec2::Zero()) : bent[v]);
+  bent[inner] += 0.95 * (middle - bent[inner]);
+  std::vector<Chart> interpolated = charts;
+  for (int v = 0; v < charts[0].vertex_count(); ++v) {
+    interpolated[0].uvs[v] = Vec2::Zero();
+    for (int k = 0; k < 3; ++k)
+      interpolated[0].uvs[v] += own.places[v].weights[k] * bent[own.mesh.triangles[own.places[v].triangle][k]];
+  }
+  ASSERT_FALSE(certify_charts(interpolated).valid());
+  const auto uvs = prolonged(coarse, charts, objective, {bent});
   ASSERT_TRUE(uvs);
   const std::vector<Chart> fine = testing::with_uvs(charts, *uvs);
   testing::expect_certified(fine);

@@ -61,6 +61,10 @@ TEST(CoarseToFine, KeepsTheShapesOfChartsThatOnlyMove) {
   SqueezeOptions options = options_at(0.45);
   options.freedom = {Freedom::Bends, Freedom::Moves};
   expect_the_same_optimum(charts, options);
+  Monitor monitor;
+  const std::vector<Vec2> moved = squeeze({{charts}}, make_objective(charts), options, monitor).outcome.uvs[1];
+  for (std::size_t v = 0; v < moved.size(); ++v)
+    EXPECT_LT(((moved[v] - moved[0]) - (charts[1].uvs[v] - charts[1].uvs[0])).norm(), 1e-9);
 }
 
 TEST(CoarseToFine, TheBitsDoNotDependOnTheThreads) {
@@ -75,6 +79,9 @@ TEST(CoarseToFine, TheBitsDoNotDependOnTheThreads) {
   EXPECT_TRUE(testing::same_bits(one, run(2)));
   EXPECT_TRUE(testing::same_bits(one, run(8)));
   EXPECT_TRUE(testing::same_bits(one, run(1)));
+  Monitor monitor;
+  const Squeezed direct = squeeze_directly({{charts}, {charts}}, make_objective(charts), options_at(0.8), monitor);
+  EXPECT_FALSE(testing::same_bits(one, direct.outcome.uvs[0]));  // it did go another way
 }
 
 }  // namespace

@@ -62,6 +62,25 @@ TEST(Supernodes, HoldWhatEliminationFills) {
   }
 }
 
+TEST(Supernodes, AddFewZeros) {
+  constexpr int kSide = 40, n = kSide * kSide;
+  Adjacency grid{{0}, {}};
+  for (int v = 0; v < n; ++v) {
+    if (v >= kSide) grid.nodes.push_back(v - kSide);
+    if (v % kSide > 0) grid.nodes.push_back(v - 1);
+    if (v % kSide < kSide - 1) grid.nodes.push_back(v + 1);
+    if (v < n - kSide) grid.nodes.push_back(v + kSide);
+    grid.start.push_back(static_cast<int>(grid.nodes.size()));
+  }
+  const Supernodes tree = find_supernodes(grid);
+  double exact = n, stored = 0;
+  for (const std::set<int>& column : eliminate(grid, tree)) exact += static_cast<double>(column.size());
+  for (int s = 0; s < tree.count(); ++s) stored += tree.pivots(s) * (0.5 * (tree.pivots(s) + 1) + tree.below(s));
+  EXPECT_GE(stored, exact);
+  EXPECT_LT(stored, 1.3 * exact);
+  EXPECT_LT(tree.count(), n / 3);
+}
+
 TEST(Supernodes, ChildrenComeFirstAndTheirRowsLieInTheParent) {
   const Adjacency graph = random_graph(300, 600, 3);
   const Supernodes tree = find_supernodes(graph);

@@ -107,9 +107,11 @@ struct RefineOptions {
   /// One flag per face, or empty. A chart with a face that is set keeps its UVs, bit for bit; all others go around it. The box is
   /// then [0, 1]^2 (of the texture's shape).
   std::vector<char> locked;
-  std::vector<std::array<int, 2>>
-      no_seam;  ///< edges, as pairs of vertices, that no cut runs along; Cut::Split may cross some, which is told
-  std::vector<std::array<int, 2>> prefer_seam;  ///< edges that cuts along edges run along for a tenth of their length's price
+  /// Edges, as pairs of vertices, that no cut and no opening of a closed chart runs along; Cut::Split may cross some, which is
+  /// told.
+  std::vector<std::array<int, 2>> no_seam;
+  /// Edges that cuts along edges, and openings, run along for a tenth of their length's price.
+  std::vector<std::array<int, 2>> prefer_seam;
 
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0 = as many as the machine has; the result does not depend on it

@@ -32,15 +32,6 @@ std::vector<std::vector<int>> renamed(std::vector<std::vector<int>> loops, const
   return loops;
 }
 
-/// Per vertex: whether it lies on the boundary.
-std::vector<char> boundary_flags(const Chart& chart) {
-  std::vector<char> flags(chart.vertex_count(), 0);
-  for (const std::vector<int>& loop : chart.boundary_loops) {
-    for (const int v : loop) flags[v] = 1;
-  }
-  return flags;
-}
-
 /// Vertices that stay: the boundary, and where the chart is so narrow that a vertex inside joins several stretches of it. What
 /// the boundary does there nothing else could follow.
 std::vector<char> held_vertices(const Chart& chart) {
@@ -155,7 +146,6 @@ std::optional<CoarseChart> coarsen(const Chart& chart, double spacing) {
   out.places = places_of(chart, out, locator);
   if (std::any_of(out.places.begin(), out.places.end(), [](const Place& place) { return place.triangle < 0; }))
     return std::nullopt;
-  out.neighbours = locator.neighbours();
   out.mesh.surface = surface_of(chart, out);
   return out;
 }

@@ -10,10 +10,9 @@
 namespace atlas_refine {
 
 struct CoarseChart {
-  Chart mesh;                                  ///< without guards; its surface tells the lengths of the boundary
-  std::vector<int> kept;                       ///< per vertex: the fine chart's vertex it is
-  std::vector<Place> places;                   ///< per vertex of the fine chart: where it lies
-  std::vector<std::array<int, 3>> neighbours;  ///< Locator::neighbours
+  Chart mesh;                 ///< without guards; its surface tells the lengths of the boundary
+  std::vector<int> kept;      ///< per vertex: the fine chart's vertex it is
+  std::vector<Place> places;  ///< per vertex of the fine chart: where it lies
 };
 
 /// Vertices inside are about `spacing` apart on the surface, nearer near the boundary. Nothing where less than half of the

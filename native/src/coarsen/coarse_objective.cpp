@@ -34,9 +34,8 @@ Mat2 geometric_mean(const Mat2& a, const Mat2& b) {
   return std::sqrt(root_a * root_b / sum.determinant()) * sum;
 }
 
-std::vector<Average> averages(const Chart& chart, const CoarseChart& coarse, const ChartObjective& fine) {
+std::vector<Average> averages(const Chart& chart, const CoarseChart& coarse, const Locator& locator, const ChartObjective& fine) {
   std::vector<Average> out(coarse.mesh.triangles.size());
-  const Locator locator(coarse.mesh.uvs, coarse.mesh.triangles);
   std::size_t element = 0;
   for_each_element(chart, [&](const Triangle& t, const RestTriangle&, double share, int) {
     const std::size_t e = element++;
@@ -52,13 +51,13 @@ std::vector<Average> averages(const Chart& chart, const CoarseChart& coarse, con
 }
 
 /// Triangles that hold the middle of no element are like those around them.
-void fill(const CoarseChart& coarse, std::vector<Average>& averages) {
+void fill(const Locator& locator, std::vector<Average>& averages) {
   for (bool filled = true; filled;) {
     filled = false;
     const std::vector<Average> before = averages;
     for (std::size_t t = 0; t < averages.size(); ++t) {
       if (before[t].area > 0) continue;
-      for (const int other : coarse.neighbours[t]) {
+      for (const int other : locator.neighbours()[t]) {
         if (other >= 0) averages[t] += before[other];
       }
       filled = filled || averages[t].area > 0;
@@ -69,8 +68,9 @@ void fill(const CoarseChart& coarse, std::vector<Average>& averages) {
 }  // namespace
 
 ChartObjective coarse_objective(const Chart& chart, const CoarseChart& coarse, const ChartObjective& fine) {
-  std::vector<Average> of_triangle = averages(chart, coarse, fine);
-  fill(coarse, of_triangle);
+  const Locator locator(coarse.mesh.uvs, coarse.mesh.triangles);
+  std::vector<Average> of_triangle = averages(chart, coarse, locator, fine);
+  fill(locator, of_triangle);
   ChartObjective out;
   double weight = 0;  // without the energies
   std::vector<double> energy;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/boundary.h"
 #include "geometry/guards.h"
 #include "solve/foldover.h"
 #include "solve/newton.h"
@@ -152,10 +153,7 @@ std::optional<std::vector<Vec2>> prolong(const Chart& chart, const CoarseChart& 
   const std::vector<double> first_energy = energies(patch);
   patch.x = interpolated(coarse, coarse_uvs);
   for (Vec2& x : patch.x) x /= unit;
-  patch.fixed.assign(chart.vertex_count(), 0);
-  for (const std::vector<int>& loop : chart.boundary_loops) {
-    for (const int v : loop) patch.fixed[v] = 1;
-  }
+  patch.fixed = boundary_flags(chart);
   if (!mend(first_energy, patch)) return std::nullopt;
   for (Vec2& x : patch.x) x *= unit;
   return std::move(patch.x);

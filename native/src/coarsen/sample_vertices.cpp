@@ -10,6 +10,8 @@
 #include <queue>
 #include <utility>
 
+#include "geometry/rest_triangle.h"
+
 namespace atlas_refine {
 namespace {
 
@@ -25,12 +27,6 @@ struct VertexGraph {
     for (int k = first[v]; k < first[v + 1]; ++k) visit(neighbours[k], lengths[k]);
   }
 };
-
-/// Of the sides (0, 1), (1, 2), (2, 0).
-std::array<double, 3> side_lengths(const RestTriangle& shape) {
-  const Mat2 edges = shape.inverse_edges.inverse();
-  return {edges.col(0).norm(), (edges.col(1) - edges.col(0)).norm(), edges.col(1).norm()};
-}
 
 VertexGraph graph_of(const Chart& chart) {
   VertexGraph out;

@@ -11,6 +11,7 @@
 
 #include "cut/scale_forecast.h"
 #include "geometry/half_edge_mesh.h"
+#include "geometry/rest_triangle.h"
 #include "support/disjoint_sets.h"
 
 namespace atlas_refine {
@@ -41,8 +42,7 @@ Graph graph_of(const Chart& chart, const SidePrices& prices) {
   std::map<std::pair<int, int>, int> known;
   Graph out;
   for (int t = 0; t < static_cast<int>(chart.triangles.size()); ++t) {
-    const Mat2 flat = chart.surface[t].inverse_edges.inverse();
-    const std::array<double, 3> lengths = {flat.col(0).norm(), (flat.col(1) - flat.col(0)).norm(), flat.col(1).norm()};
+    const std::array<double, 3> lengths = side_lengths(chart.surface[t]);
     for (int k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax(chart.triangles[t][k], chart.triangles[t][(k + 1) % 3]);
       const auto [entry, is_new] = known.try_emplace({low, high}, static_cast<int>(out.edges.size()));

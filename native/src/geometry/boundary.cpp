@@ -7,6 +7,7 @@
 
 #include "geometry/box_tree.h"
 #include "geometry/plane.h"
+#include "geometry/rest_triangle.h"
 
 namespace atlas_refine {
 namespace {
@@ -45,21 +46,22 @@ bool points_outside(const Boundary& boundary, const std::vector<Vec2>& positions
 
 }  // namespace
 
+std::vector<char> boundary_flags(const Chart& chart) {
+  std::vector<char> flags(chart.vertex_count(), 0);
+  for (const std::vector<int>& loop : chart.boundary_loops) {
+    for (const int v : loop) flags[v] = 1;
+  }
+  return flags;
+}
+
 std::map<std::pair<int, int>, double> surface_lengths(const Chart& chart) {
   std::map<std::pair<int, int>, double> lengths;
-  std::vector<char> on_boundary(chart.vertex_count(), 0);
-  for (const auto& loop : chart.boundary_loops) {
-    for (int v : loop) on_boundary[v] = 1;
-  }
+  const std::vector<char> on_boundary = boundary_flags(chart);
   for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
     const Triangle& triangle = chart.triangles[t];
     if (on_boundary[triangle[0]] + on_boundary[triangle[1]] + on_boundary[triangle[2]] < 2) continue;
-    const Mat2 edges = chart.surface[t].inverse_edges.inverse();
-    const Vec2 e1 = edges.col(0);
-    const Vec2 e2 = edges.col(1);
-    lengths[{triangle[0], triangle[1]}] = e1.norm();
-    lengths[{triangle[1], triangle[2]}] = (e2 - e1).norm();
-    lengths[{triangle[2], triangle[0]}] = e2.norm();
+    const std::array<double, 3> sides = side_lengths(chart.surface[t]);
+    for (int k = 0; k < 3; ++k) lengths[{triangle[k], triangle[(k + 1) % 3]}] = sides[k];
   }
   return lengths;
 }

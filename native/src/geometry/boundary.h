@@ -24,6 +24,9 @@ struct Boundary {
   double arc_between(int point, int edge) const;
 };
 
+/// Per vertex: whether it lies on the boundary.
+std::vector<char> boundary_flags(const Chart& chart);
+
 /// Lengths on the surface of the sides of triangles with two corners or more on the boundary, all boundary edges among them, by
 /// (start, end).
 std::map<std::pair<int, int>, double> surface_lengths(const Chart& chart);

@@ -4,13 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/plane.h"
+
 namespace atlas_refine {
 namespace {
-
-bool any_flagged(const Chart& chart, const std::vector<char>& flags) {
-  return !flags.empty() &&
-         std::any_of(chart.triangle_faces.begin(), chart.triangle_faces.end(), [&](int face) { return flags[face]; });
-}
 
 /// The part of a convex polygon where sign * p[axis] <= sign * limit.
 std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, int axis, double limit, double sign) {
@@ -25,16 +22,12 @@ std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, int axis, double lim
   return out;
 }
 
-double area_of(const std::vector<Vec2>& polygon) {
-  double twice = 0;
-  for (std::size_t k = 2; k < polygon.size(); ++k) {
-    const Vec2 a = polygon[k - 1] - polygon[0], b = polygon[k] - polygon[0];
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return 0.5 * std::abs(twice);
-}
-
 }  // namespace
+
+bool any_flagged(const Chart& chart, const std::vector<char>& flags) {
+  return !flags.empty() &&
+         std::any_of(chart.triangle_faces.begin(), chart.triangle_faces.end(), [&](int face) { return flags[face] != 0; });
+}
 
 Freedoms freedom_of(const std::vector<Chart>& charts, const std::vector<char>& keep_shape, const std::vector<char>& locked) {
   Freedoms out;
@@ -63,7 +56,7 @@ double area_within(const Chart& chart, const Box& box) {
       polygon = clipped(polygon, axis, box.min[axis], -1);
       polygon = clipped(polygon, axis, box.max[axis], 1);
     }
-    area += area_of(polygon);
+    area += 0.5 * std::abs(doubled_area(polygon));
   }
   return area;
 }

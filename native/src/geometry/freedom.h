@@ -16,6 +16,9 @@ enum class Freedom : char {
 /// One per chart; empty where all bend.
 using Freedoms = std::vector<Freedom>;
 
+/// Whether a face of the chart has a flag that is not 0; empty: none has.
+bool any_flagged(const Chart& chart, const std::vector<char>& flags);
+
 /// A chart with a face that is set in `locked` is fixed, else one with a face that is set in `keep_shape` moves. The flags are
 /// one per face of the input, or empty.
 Freedoms freedom_of(const std::vector<Chart>& charts, const std::vector<char>& keep_shape, const std::vector<char>& locked);

@@ -78,4 +78,9 @@ RestTriangle rest_equilateral(double area) {
   return from_flat_edges(length, 0.5 * length, 0.5 * std::sqrt(3.0) * length);
 }
 
+std::array<double, 3> side_lengths(const RestTriangle& shape) {
+  const Mat2 edges = shape.inverse_edges.inverse();
+  return {edges.col(0).norm(), (edges.col(1) - edges.col(0)).norm(), edges.col(1).norm()};
+}
+
 }  // namespace atlas_refine

@@ -1,6 +1,8 @@
 // The undeformed shape of a triangle, laid flat.
 #pragma once
 
+#include <array>
+
 #include "geometry/chart.h"
 
 namespace atlas_refine {
@@ -18,6 +20,9 @@ RestTriangle rest_raised(const Vec3& p0, const Vec3& p1, const Vec3& p2, double 
 
 /// The shape of a triangle of the plane, counterclockwise, times `scale`. Zero `area` where it is a sliver or not positive.
 RestTriangle rest_from_plane(const Vec2& p0, const Vec2& p1, const Vec2& p2, double scale);
+
+/// Of the sides (0, 1), (1, 2), (2, 0).
+std::array<double, 3> side_lengths(const RestTriangle& shape);
 
 /// An equilateral triangle of the given area > 0.
 RestTriangle rest_equilateral(double area);

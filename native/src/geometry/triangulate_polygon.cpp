@@ -25,14 +25,8 @@ using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
 /// A fan triangle below this share of the mean one is a sliver, in the UV plane or in space; another diagonal is better.
 constexpr double kSmallestShare = 0.05;
 
-double polygon_area(const std::vector<Vec2>& uvs) {
-  double doubled = 0;
-  for (std::size_t i = 2; i < uvs.size(); ++i) doubled += doubled_area(uvs[0], uvs[i - 1], uvs[i]);
-  return 0.5 * doubled;
-}
-
 bool fan_fits_uvs(const std::vector<Vec2>& uvs) {
-  const double smallest = kSmallestShare * 2 * polygon_area(uvs) / static_cast<double>(uvs.size() - 2);
+  const double smallest = kSmallestShare * doubled_area(uvs) / static_cast<double>(uvs.size() - 2);
   for (std::size_t i = 2; i < uvs.size(); ++i) {
     if (orientation(uvs[0], uvs[i - 1], uvs[i]) <= 0 || doubled_area(uvs[0], uvs[i - 1], uvs[i]) < smallest) return false;
   }
@@ -134,7 +128,7 @@ std::optional<std::vector<Triangle>> triangulate_polygon(const std::vector<Vec2>
   const int count = static_cast<int>(uvs.size());
   if (fan_fits_uvs(uvs) && fan_fits_positions(positions)) return polygon_fan(count);
   Inserted polygon;
-  if (!(polygon_area(uvs) > 0) || !insert_polygon(uvs, polygon)) return std::nullopt;
+  if (!(0.5 * doubled_area(uvs) > 0) || !insert_polygon(uvs, polygon)) return std::nullopt;
   const std::optional<Corners> corners = corners_inside(polygon);
   if (!corners || static_cast<int>(corners->size()) != count - 2) return std::nullopt;
   std::vector<Triangle> triangles;

@@ -18,7 +18,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
 using FaceBase = CGAL::Triangulation_face_base_with_info_2<Side, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
 using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-                                                            CGAL::No_constraint_intersection_tag>;
+                                                            CGAL::No_constraint_intersection_requiring_constructions_tag>;
 using Handles = std::vector<Delaunay::Vertex_handle>;
 
 /// False where two points are one, or all lie on one line.
@@ -35,11 +35,8 @@ bool insert_points(const Region& region, Delaunay& delaunay, Handles& handles) {
   return static_cast<int>(delaunay.number_of_vertices()) == count && delaunay.dimension() == 2;
 }
 
-/// False where constraints cross each other or run through points. To insert one twice would count as a crossing.
-bool insert_edges(std::vector<std::array<int, 2>> edges, const Handles& handles, Delaunay& delaunay) {
-  for (std::array<int, 2>& edge : edges) std::sort(edge.begin(), edge.end());
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+/// False where constraints cross each other or run through points.
+bool insert_edges(const std::vector<std::array<int, 2>>& edges, const Handles& handles, Delaunay& delaunay) {
   try {
     for (const auto& [a, b] : edges) delaunay.insert_constraint(handles[a], handles[b]);
   } catch (const Delaunay::Intersection_of_constraints_exception&) {

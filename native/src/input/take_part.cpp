@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/freedom.h"
 #include "geometry/plane.h"
 #include "measure/distortion.h"
 
@@ -15,18 +16,13 @@ constexpr double kCollapsed = 1e-6;
 constexpr double kTile = 1;            // UV units
 constexpr double kOnEachOther = 1e-4;  // of the UV box: how near stacked charts lie
 
-bool has_flag(const Chart& chart, const std::vector<char>& flags) {
-  return !flags.empty() &&
-         std::any_of(chart.triangle_faces.begin(), chart.triangle_faces.end(), [&](int face) { return flags[face] != 0; });
-}
-
 int group_of(const Chart& chart, const std::vector<int>& groups) {
   return groups.empty() ? 0 : groups[chart.triangle_faces.front()];
 }
 
 /// Locked charts first, then those that are not mirrored, then the others.
 std::vector<int> leaders_first(const ChartSet& set, std::vector<int> charts, const std::vector<char>& locked) {
-  const auto rank = [&](int k) { return has_flag(set.charts[k], locked) ? 0 : set.mirrored[k] ? 2 : 1; };
+  const auto rank = [&](int k) { return any_flagged(set.charts[k], locked) ? 0 : set.mirrored[k] ? 2 : 1; };
   std::stable_sort(charts.begin(), charts.end(), [&](int a, int b) { return rank(a) < rank(b); });
   return charts;
 }
@@ -50,17 +46,21 @@ bool is_collapsed(const Chart& chart, double box_side) {
   return length <= kCollapsed * box_side || area <= kCollapsed * length * std::max(length, box_side);
 }
 
+double collapse_side(const ChartSet& set) {
+  // A vertex far outside the tile must not make points of all charts.
+  return std::min(kTile, uv_box(set.charts).size().maxCoeff());
+}
+
 Participants take_part(const ChartSet& set, const RefineOptions& options, const std::vector<char>& has_uvs) {
   Participants out;
   std::map<int, std::vector<int>> groups;
-  // A vertex far outside the tile must not make points of all charts.
-  const double side = std::min(kTile, uv_box(set.charts).size().maxCoeff());
+  const double side = collapse_side(set);
   for (int k = 0; k < static_cast<int>(set.charts.size()); ++k) {
     const Chart& chart = set.charts[k];
     const bool without = !has_uvs.empty() && !has_uvs[chart.triangle_faces.front()];
     if (options.collapsed == Collapsed::Leave && (without || is_collapsed(chart, side))) {
       out.left.push_back({k, without ? "has no finite UVs" : "has no area in the UV map"});
-    } else if (has_flag(chart, options.locked) && chart.boundary_loops.empty()) {
+    } else if (any_flagged(chart, options.locked) && chart.boundary_loops.empty()) {
       out.left.push_back({k, "is locked and has no boundary that others could keep away from"});
     } else {
       groups[group_of(chart, options.groups)].push_back(k);
@@ -73,12 +73,13 @@ Participants take_part(const ChartSet& set, const RefineOptions& options, const 
     std::vector<char> follows(set.charts.size(), 0);
     if (stacks) {
       for (Follower& follower : find_stacks(placed, leaders_first(set, charts, options.locked), kOnEachOther * side)) {
-        // A cut can be followed by the same triangles only. What was one chart, folded, was not put on itself on purpose.
+        // What was one chart, folded, was not put on itself on purpose.
+        if (fold[follower.chart] >= 0 && fold[follower.chart] == fold[follower.leader]) continue;
+        // A cut can be followed by the same triangles only.
         if (options.seams != Seams::None && !follower.same_triangles) {
           out.unstacked.push_back(follower.chart);
           continue;
         }
-        if (fold[follower.chart] >= 0 && fold[follower.chart] == fold[follower.leader]) continue;
         follows[follower.chart] = 1;
         out.followers.push_back(std::move(follower));
       }

@@ -36,5 +36,7 @@ Participants take_part(const ChartSet& set, const RefineOptions& options, const 
 
 /// True where the chart's UVs lie on a point or a line: within 1e-6 of `box_side`, or of its own length.
 bool is_collapsed(const Chart& chart, double box_side);
+/// The `box_side` for charts of this set.
+double collapse_side(const ChartSet& set);
 
 }  // namespace atlas_refine

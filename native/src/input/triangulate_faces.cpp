@@ -64,15 +64,14 @@ std::optional<std::vector<Triangle>> positive_triangles(int face, const Outline&
 std::vector<Triangle> any_triangles(const Atlas& atlas, const std::vector<CornerRef>& corners, const Outline& outline) {
   std::vector<int> vertices;
   std::vector<Vec2> uvs;
-  double doubled = 0;
   for (int c : outline.corners) {
     vertices.push_back(corners[c].vertex);
     uvs.push_back(atlas.corner_uvs[c]);
-    if (uvs.size() > 2) doubled += doubled_area(uvs.front(), uvs[uvs.size() - 2], uvs.back());
   }
   std::sort(vertices.begin(), vertices.end());
   if (std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end()) return polygon_fan(outline.size());
-  for (Vec2& uv : uvs) uv.x() *= doubled < 0 ? -1 : 1;
+  const double turned = doubled_area(uvs) < 0 ? -1 : 1;
+  for (Vec2& uv : uvs) uv.x() *= turned;
   return triangulate_polygon(uvs, outline.positions).value_or(polygon_fan(outline.size()));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/plane.h"
 #include "input/face_areas.h"
 #include "support/disjoint_sets.h"
 
@@ -12,8 +13,8 @@ namespace {
 
 constexpr double kMostWrapped = 0.5;    // of a chart's area in space, or there is nothing to go by
 constexpr double kFlipped = 2;          // what a face that lies against its chart is worse by, in e-folds of its density
-constexpr double kMostAgainst = 0.1;    // faces left the wrong way round, per face that is moved
 constexpr double kClearlyBetter = 0.5;  // likewise
+constexpr double kMostAgainst = 0.1;    // faces left the wrong way round, per face that is moved
 
 /// The corners of the face moved by whole tiles so that no edge is longer than half a tile in u or v; none is moved down.
 std::vector<Vec2> nearest_images(const Atlas& atlas, int face) {
@@ -26,15 +27,6 @@ std::vector<Vec2> nearest_images(const Atlas& atlas, int face) {
   for (const Vec2& tile : tiles) least = least.cwiseMin(tile);
   for (std::size_t k = 0; k < tiles.size(); ++k) tiles[k] += atlas.corner_uvs[atlas.face_offsets[face] + k] - least;
   return tiles;
-}
-
-double doubled_area(const std::vector<Vec2>& polygon) {
-  double sum = 0;
-  for (std::size_t k = 2; k < polygon.size(); ++k) {
-    const Vec2 a = polygon[k - 1] - polygon[0], b = polygon[k] - polygon[0];
-    sum += a.x() * b.y() - a.y() * b.x();
-  }
-  return sum;
 }
 
 /// Faces with an edge that another image would shorten.

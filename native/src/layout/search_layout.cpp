@@ -81,7 +81,7 @@ double highest_pe(const Round& round) {
   return round.area / boxes;
 }
 
-/// Large charts first.
+/// Large charts first; in single precision, where sums in another order agree.
 std::vector<int> by_size(const Round& round) {
   std::vector<std::tuple<float, float, std::size_t>> size;
   for (std::size_t c = 0; c < round.quads.size(); ++c) {

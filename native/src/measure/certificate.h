@@ -31,4 +31,8 @@ double gap_between_charts(const std::vector<Chart>& charts, const Freedoms& free
 /// to the distance `reach`; infinity where there is none.
 std::vector<double> gap_within_charts(const std::vector<Chart>& charts, double far_arc, double reach);
 
+/// The least of these with kFarArc; it and `reach` are fractions of the diagonal of the charts' box. `best_scale`: of
+/// DirichletSums.
+double gap_within(const std::vector<Chart>& charts, double best_scale, double reach);
+
 }  // namespace atlas_refine

@@ -7,6 +7,7 @@
 #include "geometry/predicates.h"
 #include "measure/boundary_edges.h"
 #include "measure/certificate.h"
+#include "measure/distortion.h"
 
 namespace atlas_refine {
 
@@ -96,6 +97,13 @@ std::vector<double> gap_within_charts(const std::vector<Chart>& charts, double f
     gap = std::min(gap, gap_within_loop(placed, first, end, far_arc, reach));
   }
   return gaps;
+}
+
+double gap_within(const std::vector<Chart>& charts, double best_scale, double reach) {
+  const Box box = uv_box(charts);
+  const double diagonal = box.diagonal() > 0 ? box.diagonal() : 1;
+  const std::vector<double> gaps = gap_within_charts(charts, kFarArc * diagonal * best_scale, reach * diagonal);
+  return *std::min_element(gaps.begin(), gaps.end()) / diagonal;
 }
 
 }  // namespace atlas_refine

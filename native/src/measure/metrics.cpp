@@ -64,10 +64,8 @@ Measures measure_charts(const std::vector<Chart>& charts, double box_aspect) {
   measures.distortion_to_input = 1;
   measure_stretch(charts, sums.best_scale(), measures);
   const double diagonal = box.diagonal() > 0 ? box.diagonal() : 1;
-  const double far = kFarArc * diagonal;
-  const std::vector<double> within = gap_within_charts(charts, far * sums.best_scale(), far);
   measures.gap_between = gap_between_charts(charts) / diagonal;
-  measures.gap_within = *std::min_element(within.begin(), within.end()) / diagonal;
+  measures.gap_within = gap_within(charts, sums.best_scale(), kFarArc);
   return measures;
 }
 

@@ -116,9 +116,8 @@ std::vector<Placement> CanonicalOutlines::of_input(const std::vector<Placement>&
   std::vector<Placement> out(placements.size());
   for (std::size_t k = 0; k < placements.size(); ++k) {
     const Placement &first = motions[k], &then = placements[k];
-    const Placement turn{then.cosine, then.sine, Vec2::Zero()};
-    out[sources[k]] = {then.cosine * first.cosine - then.sine * first.sine, then.sine * first.cosine + then.cosine * first.sine,
-                       turn.apply(first.offset) + unit * then.offset};
+    const Turn turn{then.cosine, then.sine}, both = turn.after({first.cosine, first.sine});
+    out[sources[k]] = {both.cosine, both.sine, turn.apply(first.offset) + unit * then.offset};
   }
   return out;
 }

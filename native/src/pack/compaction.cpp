@@ -11,6 +11,7 @@
 #include "geometry/predicates.h"
 #include "measure/distortion.h"
 #include "pack/linear_program.h"
+#include "pack/turns.h"
 
 namespace atlas_refine {
 namespace {
@@ -243,12 +244,10 @@ std::vector<Placement> moved(const std::vector<Placement>& placements, const Sce
       continue;
     }
     const double angle = turning ? motion[3 * c + 2] / scene.radii[c] : 0;
-    const double cosine = std::cos(angle), sine = std::sin(angle);
     const Placement& old = placements[c];
-    const Placement about{cosine, sine, Vec2::Zero()};
-    double new_cosine = cosine * old.cosine - sine * old.sine, new_sine = sine * old.cosine + cosine * old.sine;
-    const double length = std::hypot(new_cosine, new_sine);
-    result[c] = {new_cosine / length, new_sine / length,
+    const Turn about{std::cos(angle), std::sin(angle)}, both = about.after({old.cosine, old.sine});
+    const double length = std::hypot(both.cosine, both.sine);
+    result[c] = {both.cosine / length, both.sine / length,
                  about.apply(old.offset - scene.centres[c]) + scene.centres[c] + Vec2(motion[3 * c], motion[3 * c + 1])};
   }
   return result;

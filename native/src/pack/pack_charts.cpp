@@ -36,8 +36,8 @@ Placement place_one(const Outline& outline, double area, double box_aspect) {
   const Turn own{first.cosine, first.sine};
   std::vector<Vec2> hull = convex_hull(outline);
   for (Vec2& p : hull) p = own.apply(p);
-  const Turn then = box_aspect > 0 ? best_turn(hull, box_aspect) : Turn{};
-  return {then.cosine * own.cosine - then.sine * own.sine, then.sine * own.cosine + then.cosine * own.sine, Vec2::Zero()};
+  const Turn turn = (box_aspect > 0 ? best_turn(hull, box_aspect) : Turn{}).after(own);
+  return {turn.cosine, turn.sine, Vec2::Zero()};
 }
 
 }  // namespace

@@ -14,6 +14,10 @@ struct Turn {
   double sine = 0;
 
   Vec2 apply(const Vec2& p) const { return {cosine * p.x() - sine * p.y(), sine * p.x() + cosine * p.y()}; }
+  /// Both as one.
+  Turn after(const Turn& first) const {
+    return {cosine * first.cosine - sine * first.sine, sine * first.cosine + cosine * first.sine};
+  }
   Turn quarter_turned() const { return {-sine, cosine}; }
 };
 

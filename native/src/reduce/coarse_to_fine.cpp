@@ -13,19 +13,17 @@ namespace {
 constexpr double kLeastChange = 2e-5;
 constexpr double kNegligible = 1e-9;
 
-bool holds(const ReduceResult& result) { return result.reached && result.within_limit; }
-
 /// The fine charts from where the coarse ones have ended.
-std::optional<std::vector<Chart>> carried_over(const CoarseAtlas& coarse, std::vector<Chart> charts, const Objective& objective,
-                                               const std::vector<std::vector<Vec2>>& coarse_uvs) {
-  auto uvs = prolonged(coarse, charts, objective, coarse_uvs);
+std::optional<PlacedCharts> carried_over(const CoarseAtlas& coarse, std::vector<Chart> charts, const Objective& objective,
+                                         const ReduceResult& end) {
+  auto uvs = prolonged(coarse, charts, objective, end.uvs);
   if (!uvs) return std::nullopt;
   for (std::size_t c = 0; c < charts.size(); ++c) charts[c].uvs = std::move((*uvs)[c]);
-  return charts;
+  return PlacedCharts{.charts = std::move(charts), .frame = end.frame};
 }
 
 /// The end of the coarse charts, told by the fine ones' vertices.
-WarmStart warm_start(const CoarseAtlas& coarse, const std::vector<Chart>& charts, const Squeezed& squeezed) {
+WarmStart warm_start(const CoarseAtlas& coarse, const std::vector<Chart>& charts, WarmStart end) {
   std::vector<int> fine;  // of each coarse vertex
   int first = 0;
   for (std::size_t c = 0; c < charts.size(); ++c) {
@@ -33,32 +31,22 @@ WarmStart warm_start(const CoarseAtlas& coarse, const std::vector<Chart>& charts
     for (int v = 0; v < count; ++v) fine.push_back(first + (coarse.charts[c] ? coarse.charts[c]->kept[v] : v));
     first += charts[c].vertex_count();
   }
-  WarmStart out = squeezed.outcome.end;
-  for (NearBorder& near : out.near_borders) near = {fine[near.vertex], fine[near.edge], near.floor};
-  return out;
+  for (NearBorder& near : end.near_borders) near = {fine[near.vertex], fine[near.edge], near.floor};
+  return end;
 }
 
-std::optional<ReduceResult> polish(const std::vector<Chart>& start, const Objective& objective, const Squeezed& squeezed,
-                                   const WarmStart& warm, const SqueezeOptions& options, Monitor& monitor) {
-  const ReduceProblem problem{.charts = start,
-                              .objective = objective,
-                              .gap = squeezed.gap,
-                              .box_aspect = options.box_aspect,
-                              .pe_target = options.pe_bound,
-                              .threads = options.threads,
-                              .freedom = options.freedom,
-                              .frame = squeezed.outcome.frame,
-                              .warm = warm};
+std::optional<ReduceResult> polish(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
+                                   const SqueezeOptions& options, Monitor& monitor) {
+  ReduceProblem problem = problem_at(start, objective, gap, options);
+  problem.warm = warm;
   ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) { monitor.report(0.97, progress.pe); });
-  if (!holds(result)) return std::nullopt;
+  if (!result.holds()) return std::nullopt;
   return result;
 }
 
-/// The least gap between far borders of one chart, as a fraction of the charts' box; no more than `most` of it.
+/// The gap within charts as a fraction of their box' diagonal, at most `most`.
 double gap_within(const std::vector<Chart>& charts, double most) {
-  const double diagonal = uv_box(charts).diagonal(), far = kFarArc * diagonal;
-  const std::vector<double> within = gap_within_charts(charts, far * dirichlet_sums(charts).best_scale(), most * diagonal);
-  return std::min(most, *std::min_element(within.begin(), within.end()) / diagonal);
+  return std::min(most, gap_within(charts, dirichlet_sums(charts).best_scale(), most));
 }
 
 std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts, const Objective& objective,
@@ -72,16 +60,17 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   patiently.least_change = kLeastChange;
   patiently.negligible = kNegligible;
   Squeezed out = squeeze_directly(coarse_starts, coarse->objective, patiently, monitor);
-  if (!holds(out.outcome)) return std::nullopt;
-  const auto start = carried_over(*coarse, charts, objective, out.outcome.uvs);
+  if (!out.outcome.holds()) return std::nullopt;
+  const auto start = carried_over(*coarse, charts, objective, out.outcome);
   if (!start) return std::nullopt;
-  auto result = polish(*start, objective, out, warm_start(*coarse, charts, out), options, monitor);
+  auto result = polish(*start, objective, out.gap, warm_start(*coarse, charts, out.outcome.end), options, monitor);
   if (!result) return std::nullopt;
   // Borders that turned to face each other on the way may have come nearer than those of a direct squeeze do.
   constexpr double kNearer = 0.8;
-  std::vector<Chart> end = *start;
-  for (std::size_t c = 0; c < end.size(); ++c) end[c].uvs = result->uvs[c];
-  if (gap_within(end, kNearer * out.gap.value) < kNearer * gap_within(charts, out.gap.value)) return std::nullopt;
+  const PlacedCharts end = with_uvs_of(*start, *result);
+  const Box box = uv_box(end.charts);
+  const double gap = out.gap.length(end.has_frame() ? end.frame : box.size()) / box.diagonal();
+  if (gap_within(end.charts, kNearer * gap) < kNearer * gap_within(charts, gap)) return std::nullopt;
   out.iterations += result->iterations;
   out.outcome = std::move(*result);
   return out;

@@ -13,6 +13,8 @@ namespace {
 constexpr double kRangePerArc = 0.3;
 // The floor of borders that are nearer than it already, as a part of their distance.
 constexpr double kOfDistance = 0.9;
+// The same at the start, which has to be inside its barrier.
+constexpr double kOfFirstDistance = 0.999;
 // The pattern holds pairs up to this multiple of the reach, so that it changes seldom.
 constexpr double kPatternReach = 1.7;
 
@@ -80,8 +82,8 @@ std::vector<NearBorder> measure_near_borders(const ReduceModel& model) {
     if (moves_as_one(model, pair) || !of_one_piece(boundary, pair) || boundary.arc_between(pair.point, pair.edge) < model.far_arc)
       continue;
     const Closest nearest = closest(boundary, x, pair);
-    if (0.999 * nearest.distance < model.gap.value * unit && faces_outside(boundary, x, pair, nearest))
-      near.push_back({pair.point, pair.edge, 0.999 * nearest.distance / unit});
+    const double floor = kOfFirstDistance * nearest.distance / unit;
+    if (floor < model.gap.value && faces_outside(boundary, x, pair, nearest)) near.push_back({pair.point, pair.edge, floor});
   }
   return near;
 }

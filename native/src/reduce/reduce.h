@@ -78,6 +78,7 @@ struct ReduceResult {
   ReduceStatus status = ReduceStatus::Converged;
   bool reached = false;  ///< PE of the frame, or of the charts' own bounding box (of the asked aspect), is at least the target
   bool within_limit = true;  ///< E_d is at most max_distortion
+  bool holds() const { return reached && within_limit; }
   double pe = 0;
   double least_energy = 0;  ///< the least objective on the way, at whatever PE
   double first_energy = 0;  ///< the objective at the start

@@ -22,18 +22,12 @@ constexpr double kSpared = 0.25;    // and is kept where it spares this part of 
 ReduceResult reduce_from(const PlacedCharts& start, const Objective& objective, const Gap& gap, const SqueezeOptions& options,
                          int threads, Monitor& monitor) {
   double first_pe = 0;
-  const ReduceProblem problem{.charts = start.charts,
-                              .objective = objective,
-                              .gap = gap,
-                              .box_aspect = options.box_aspect,
-                              .pe_target = options.pe_bound,
-                              .least_change = options.least_change,
-                              .negligible = options.negligible,
-                              .max_distortion = options.max_distortion,
-                              .max_rise = gap.value == options.gaps.back().value || start.charts.size() == 1 ? 0 : kMostRise,
-                              .threads = threads,
-                              .freedom = options.freedom,
-                              .frame = start.frame};
+  ReduceProblem problem = problem_at(start, objective, gap, options);
+  problem.least_change = options.least_change;
+  problem.negligible = options.negligible;
+  problem.max_distortion = options.max_distortion;
+  problem.max_rise = gap.value == options.gaps.back().value || start.charts.size() == 1 ? 0 : kMostRise;
+  problem.threads = threads;
   return reduce_distortion(problem, [&](const ReduceProgress& progress) {
     if (progress.iteration == 0) first_pe = progress.pe;
     const double way = std::log(options.pe_bound / std::min(first_pe, 0.999 * options.pe_bound));
@@ -54,17 +48,9 @@ bool usable(const ReduceResult& result) {
   return result.energy < kCrushed * std::max(1.0, result.first_energy);
 }
 
-PlacedCharts with_uvs_of(PlacedCharts placed, const ReduceResult& result) {
-  for (std::size_t c = 0; c < placed.charts.size(); ++c) placed.charts[c].uvs = result.uvs[c];
-  placed.frame = result.frame;
-  return placed;
-}
-
-bool holds(const ReduceResult& result) { return result.reached && result.within_limit; }
-
 /// True where a smaller gap is worth it.
 bool spares(const ReduceResult& result, const ReduceResult& larger) {
-  return holds(result) && result.energy - 1 < (1 - kSpared) * (larger.energy - 1);
+  return result.holds() && result.energy - 1 < (1 - kSpared) * (larger.energy - 1);
 }
 
 /// Why a gap was given up.
@@ -122,6 +108,23 @@ std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_boun
   return gaps;
 }
 
+PlacedCharts with_uvs_of(PlacedCharts placed, const ReduceResult& result) {
+  for (std::size_t c = 0; c < placed.charts.size(); ++c) placed.charts[c].uvs = result.uvs[c];
+  placed.frame = result.frame;
+  return placed;
+}
+
+ReduceProblem problem_at(const PlacedCharts& start, const Objective& objective, const Gap& gap, const SqueezeOptions& options) {
+  return {.charts = start.charts,
+          .objective = objective,
+          .gap = gap,
+          .box_aspect = options.box_aspect,
+          .pe_target = options.pe_bound,
+          .threads = options.threads,
+          .freedom = options.freedom,
+          .frame = start.frame};
+}
+
 Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                           Monitor& monitor) {
   Squeezed out;
@@ -131,10 +134,10 @@ Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objecti
     int best = 0;
     ReduceResult result = best_at(gap, present, objective, options, monitor, out.iterations, best);
     const bool first = &gap == &options.gaps.front();
-    const bool held = !first && holds(out.outcome);
+    const bool held = !first && out.outcome.holds();
     const bool done =
-        holds(result) && (starts.front().charts.size() == 1 || result.energy <= (1 + kNoticeable) * result.least_energy);
-    const std::string next_note = reason(gap, holds(result) ? ReduceStatus::TooExpensive : result.status);
+        result.holds() && (starts.front().charts.size() == 1 || result.energy <= (1 + kNoticeable) * result.least_energy);
+    const std::string next_note = reason(gap, result.holds() ? ReduceStatus::TooExpensive : result.status);
     present = usable(result) ? std::vector<PlacedCharts>{with_uvs_of(present[best], result)} : starts;
     if (held && !spares(result, out.outcome)) break;
     if (first || better(result, out.outcome)) {

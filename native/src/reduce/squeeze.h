@@ -41,6 +41,12 @@ inline constexpr double kMostTakenBent = 0.725;
 std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_bound, double box_aspect, double fixed_share = 0,
                                 double most_taken = 1);
 
+/// Where the result has them.
+PlacedCharts with_uvs_of(PlacedCharts placed, const ReduceResult& result);
+
+/// The bound asked of the engine from one start, which the problem refers to.
+ReduceProblem problem_at(const PlacedCharts& start, const Objective& objective, const Gap& gap, const SqueezeOptions& options);
+
 /// Reduces from every start (each free of flips, crossings and nearer charts than the first gap) and keeps the result of least
 /// distortion that holds the bound. Where none does, or the bound costs much distortion with this gap, the next one is tried, and
 /// kept where it spares a good part of that distortion; in the end, where none holds the bound, the state of the highest PE is

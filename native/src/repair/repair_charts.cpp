@@ -61,11 +61,10 @@ Mended opened_and_embedded(const Chart& chart, const ChartShape& shape, const Si
     const bool forbidden = !prices.empty() && opened(chart, {});
     return unmended(what + " and could not be opened" + (forbidden ? ": edges of --no-seam are in the way" : ""));
   }
-  CutAtlas atlas = std::move(*cut);
-  const auto embedded = embed(atlas.pieces[0].mesh, Shapes::OfSurface, options.threads, monitor);
+  const auto embedded = embed(cut->pieces[0].mesh, Shapes::OfSurface, options.threads, monitor);
   if (!embedded) return unmended(what + " and, opened, no embedding of acceptable distortion was found");
-  atlas.pieces[0].mesh = *embedded;
-  return {.atlas = std::move(atlas), .what = What::Opened, .reason = ""};
+  cut->pieces[0].mesh = *embedded;
+  return {.atlas = std::move(*cut), .what = What::Opened, .reason = ""};
 }
 
 /// Whether most of the chart's surface lies in bad triangles: then there is no shape to keep.

@@ -18,8 +18,8 @@ struct Refinement {
   Monitor& monitor;
   Journal& journal;
   int threads;
-  const RefineOptions&
-      asked;  ///< where the box is the texture: as it was asked, while `options` are for the box within its border
+  /// Where the box is the texture: as it was asked, while `options` are for the box within its border.
+  const RefineOptions& asked;
 };
 
 struct Solution {

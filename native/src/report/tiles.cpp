@@ -23,11 +23,6 @@ std::array<int, 2> ends_of_edge(const Atlas& atlas, int corner) {
 
 }  // namespace
 
-Atlas with_corner_uvs(Atlas atlas, const std::vector<Vec2>& uvs) {
-  atlas.corner_uvs = uvs;
-  return atlas;
-}
-
 void restore_left(const Atlas& input, const ChartSet& set, const Participants& participants, AssembledAtlas& assembled) {
   const std::vector<char> left = left_charts(set, participants);
   for (std::size_t c = 0; c < assembled.mesh.corner_uvs.size(); ++c) {

@@ -9,8 +9,6 @@
 
 namespace atlas_refine {
 
-Atlas with_corner_uvs(Atlas atlas, const std::vector<Vec2>& uvs);
-
 /// Charts that are left as they are keep what they had in the `input`.
 void restore_left(const Atlas& input, const ChartSet& set, const Participants& participants, AssembledAtlas& assembled);
 
