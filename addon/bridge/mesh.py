@@ -70,21 +70,24 @@ def read_material_indices(obj):
 
 
 def add_copy(obj, uv_map):
-    """The name of a new UV map that holds what the named one does, and is active."""
+    """Adds a UV map that holds what the named one does, and is active. Returns its name, and that of the one that was active."""
     layers = obj.data.uv_layers
+    before = layers.active.name
     layers.active = layers[uv_map]
     copy = layers.new(name=f"{uv_map} refined", do_init=True)
     if copy is None:
+        layers.active = layers[before]
         raise MeshError("the mesh has no room for another UV map")
     name = copy.name
     layers.active = layers[name]
-    return name
+    return name, before
 
 
-def remove_copy(obj, uv_map, copied):
+def remove_copy(obj, copied, before):
+    """Takes back what add_copy() did."""
     layers = obj.data.uv_layers
     layers.remove(layers[copied])
-    layers.active = layers[uv_map]
+    layers.active = layers[before]
 
 
 def mark_seams(obj, edges):

@@ -102,8 +102,7 @@ class Joined:
 
     def cut_of(self, k, cut, corner_uvs):
         """(the engine's CutMesh as that of one part, the UVs of its corners); all faces of the part must be taken."""
-        faces = np.flatnonzero((cut.face_sources >= self.first_faces[k]) & (cut.face_sources < self.first_faces[k + 1]))
-        begin, end = int(faces[0]), int(faces[-1]) + 1
+        begin, end = np.searchsorted(cut.face_sources, self.first_faces[k : k + 2])
         corners = slice(int(cut.face_offsets[begin]), int(cut.face_offsets[end]))
         first, count = self.first_vertices[k], len(self.parts[k].atlas.positions)
         vertices = cut.corner_vertices[corners].astype(np.int64)
