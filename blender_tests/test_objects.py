@@ -35,18 +35,6 @@ def add_two():
     return first, second
 
 
-def box_share(objs):
-    """Of the texture's square that the faces of all of them cover."""
-    area = 0.0
-    for obj in objs:
-        uvs = uvs_of(obj).astype(np.float64)
-        assert np.all((uvs >= 0) & (uvs <= 1)), (uvs.min(), uvs.max())
-        for polygon in obj.data.polygons:
-            u, v = uvs[list(polygon.loop_indices)].T
-            area += 0.5 * np.sum(u * np.roll(v, -1) - np.roll(u, -1) * v)
-    return area
-
-
 def pin_a_corner(obj, corner):
     if HAS_UV_ATTRIBUTE:  # Blender 4.5 corrupts its heap where setting a pin makes the layer of pins
         obj.data.attributes.new(".pn.UVMap", "BOOLEAN", "CORNER")
@@ -61,7 +49,7 @@ class Objects(unittest.TestCase):
         objs = add_two()
         before = [snapshot(obj, but_uvs_of="UVMap") for obj in objs]
         self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
-        self.assertGreaterEqual(box_share(objs), 0.8)
+        self.assertGreaterEqual(texture_share(*objs), 0.8)
         for obj, held in zip(objs, before, strict=True):
             self.assertEqual(changes(held, snapshot(obj, but_uvs_of="UVMap")), [])
 
@@ -80,7 +68,7 @@ class Objects(unittest.TestCase):
         for polygon in objs[0].data.polygons:
             polygon.material_index = polygon.index >= 48
         self.assertEqual(bpy.ops.uv.atlas_refine(atlases="MATERIAL"), {"FINISHED"})
-        self.assertGreaterEqual(box_share(objs), 1.6)
+        self.assertGreaterEqual(texture_share(*objs), 1.6)
 
     def test_several_objects_in_edit_mode(self):
         objs = add_two()
@@ -90,7 +78,7 @@ class Objects(unittest.TestCase):
         self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
         self.assertEqual([obj.mode for obj in objs], ["EDIT", "EDIT"])
         bpy.ops.object.mode_set(mode="OBJECT")
-        self.assertGreaterEqual(box_share(objs), 0.8)
+        self.assertGreaterEqual(texture_share(*objs), 0.8)
 
     def test_cuts_of_several_objects(self):
         for cut in ("EDGES", "SPLIT"):
@@ -98,7 +86,7 @@ class Objects(unittest.TestCase):
             objs = add_two()
             faces = [len(obj.data.polygons) for obj in objs]
             self.assertEqual(bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut=cut), {"FINISHED"})
-            self.assertGreaterEqual(box_share(objs), 0.8)
+            self.assertGreaterEqual(texture_share(*objs), 0.8)
             now = [len(obj.data.polygons) for obj in objs]
             self.assertEqual(now == faces, cut == "EDGES")
             for obj in objs:
@@ -119,7 +107,7 @@ class Objects(unittest.TestCase):
                         bpy.ops.uv.select_all(action="SELECT")
                     self.assertEqual(bpy.ops.uv.atlas_refine(**options), {"FINISHED"})
                     bpy.ops.object.mode_set(mode="OBJECT")
-                    self.assertGreaterEqual(box_share(objs), 0.8)
+                    self.assertGreaterEqual(texture_share(*objs), 0.8)
                     self.assertEqual(len(empty.data.vertices), 3)
 
     def test_a_shared_mesh_is_written_once_and_that_is_told(self):
