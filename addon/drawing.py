@@ -28,8 +28,7 @@ def draw_main(layout, holder, context):
     layout.prop(holder, "density")
     if len(objects.objects_of(context)) > 1 or holder.atlases != "ALL" or _has_materials(active):
         layout.prop(holder, "atlases")
-    if holder.tiles != "TEXTURE" or (texture and texture.is_tiled):
-        layout.prop(holder, "tiles")
+    layout.prop(holder, "tiles")
     _draw_uv_map(layout, holder, active)
     layout.prop(holder, "write_to")
 
@@ -65,8 +64,6 @@ def draw_protected(layout, holder, context):
 def draw_advanced(layout, holder):
     for name in ("relax", "max_distortion", "open_closed", "best_effort"):
         layout.prop(holder, name)
-    if holder.tiles == "TEXTURE":
-        layout.prop(holder, "tiles")
     if holder.seams == "RECTANGLES":
         layout.prop(holder, "sigma")
         layout.prop(holder, "candidates")

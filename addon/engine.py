@@ -12,4 +12,3 @@ except ImportError as error:
 AtlasRefineError = module.AtlasRefineError
 start = module.start
 measure = module.measure
-find_problems = module.find_problems

@@ -171,20 +171,8 @@ class UV_OT_atlas_refine_select_problems(bpy.types.Operator):
             name="Problems",
             description="What is selected",
             options={"ENUM_FLAG"},
-            items=[
-                ("OVERLAPPING", "Overlapping", "Faces that cover a part of another face in the UV map; stacks too"),
-                ("FLIPPED", "Flipped", "Faces that are turned over against the rest of their chart"),
-                ("ZERO_AREA", "Zero Area", "Faces without area in the UV map"),
-                ("UNWRAPPED", "Not Unwrapped", "Charts that are a point or a line in the UV map"),
-                ("MIRRORED", "Mirrored", "Charts that are turned over as a whole"),
-                ("NON_MANIFOLD", "Non-Manifold", "Faces at edges of more than two faces, or wound against their neighbour"),
-                (
-                    "LEFT",
-                    "Left by the Last Run",
-                    "Charts that the refinement whose result is shown could not use, whatever the reason",
-                ),
-            ],
-            default={"OVERLAPPING", "FLIPPED", "ZERO_AREA", "UNWRAPPED", "NON_MANIFOLD", "LEFT"},
+            items=[(name.upper(), kind.label, kind.description) for name, kind in problems.KINDS.items()],
+            default={name.upper() for name in problems.KINDS if name != "mirrored"},
         )
     }
 
@@ -223,7 +211,7 @@ class UV_OT_atlas_refine_select_problems(bpy.types.Operator):
         faces = problems.find(engine.module, obj, uv_map, tasks.faces_left(obj.name))
         chosen = sorted({int(face) for kind in wanted for face in faces[kind]})
         selection.select_faces(obj, uv_map, chosen)
-        words = [counted(len(faces[kind]), f"{problems.KINDS[kind]} face") for kind in wanted if len(faces[kind])]
+        words = [counted(len(faces[kind]), f"{problems.KINDS[kind].word} face") for kind in wanted if len(faces[kind])]
         self.report({"INFO"}, f"{obj.name}: {', '.join(words) or 'no problems'}")
 
 

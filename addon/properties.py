@@ -84,13 +84,13 @@ def _box_properties():
             "Margin",
             "Smallest distance between two charts",
             [
-                ("PIXELS", "Pixels", "So many pixels of the texture, also to its border: always kept"),
+                ("PIXELS", "Pixels", "So many pixels of the texture, to its border as well unless Aspect is Free: always kept"),
                 ("AUTO", "Automatic", "0.25 % of the box's diagonal, less where charts jam or bend too much; none to the border"),
             ],
         ),
         "gap_px": FloatProperty(
             name="Margin Pixels",
-            description="Smallest distance between two charts, and of a chart to the texture's border, in pixels",
+            description="Smallest distance between two charts and, unless Aspect is Free, of a chart to the texture's border, in pixels",
             default=Options.gap_px,
             min=0.0,
             soft_max=64.0,
@@ -98,7 +98,7 @@ def _box_properties():
         ),
         "texture_size": IntProperty(
             name="Texture Size",
-            description="Pixels of the texture's longer side, where no image tells them",
+            description="Pixels of the texture's longer side, where Aspect does not take them from an image",
             default=Options.texture_size,
             min=16,
             max=65536,
@@ -171,7 +171,12 @@ def _chart_properties():
             "Where the result goes",
             [
                 ("MAP", "The Map", "The UV map itself changes"),
-                ("COPY", "A Copy", "A new UV map, which becomes the active one; the old one stays, with what is painted by it"),
+                (
+                    "COPY",
+                    "A Copy",
+                    "A new UV map, which becomes the active one; the old one stays, with what is painted by it. None is made where "
+                    "nothing changes",
+                ),
             ],
         ),
         "mark_seams": _flag("mark_seams", "Mark New Seams", "Edges that are cut in the UV map are marked as seams of the mesh"),
@@ -218,7 +223,7 @@ def _advanced_properties():
         ),
         "threads": IntProperty(
             name="Threads",
-            description="Processor threads; 0: all but one, which Blender's window keeps. The result is the same",
+            description="Processor threads; 0: all but one, which Blender's window keeps, in scripts all. The result is the same",
             default=Options.threads,
             min=0,
             max=1024,

@@ -3,7 +3,8 @@
 
 import hashlib
 import os
-from dataclasses import dataclass
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
@@ -50,11 +51,10 @@ class Atlas:
         self.options = options
         material_numbers = {}
         self.parts = [_read(context, obj, options, material_numbers) for obj in objs]
-        self.title = objs[0].name if len(objs) == 1 else counted(len(objs), "object")
+        self.title = _title(objs)
         _require_names(self.parts, options)
         texture = find_texture(context, objs[0])
         tile = active_tile(context, texture)
-        self.texture = texture
         self.request = prepare(engine.module, self.parts, options, texture, tile, list(material_numbers))
         if options.seams != "NONE" and options.cut == "SPLIT":
             for obj in objs:
@@ -69,17 +69,16 @@ class Atlas:
         self.job = engine.start(*self.request.joined.arrays(), name=name, threads=threads, **self.request.arguments)
 
     def write(self, result):
-        """Writes the result with all meshes as they were, or raises one of FAILURES."""
+        """Writes the result, or raises one of FAILURES with all meshes as they were."""
         objs = [self._still_there(part) for part in self.parts]
         if result.intervention == "unchanged":
             return self._done(result, [part.uv_map for part in self.parts])
-        joined, uvs = self.request.joined, stored_uvs(result.corner_uvs)
-        plans = [self._plan(k, obj, result, uvs) for k, obj in enumerate(objs)]
-        maps = []
-        for k, (obj, part, plan) in enumerate(zip(objs, self.parts, plans, strict=True)):
-            maps.append(self._write_part(obj, part, plan, joined.uvs_of(k, uvs) if plan is None else None))
-            if plan is None and self.options.mark_seams:
-                bridge.mark_seams(obj, seam_edges(part.atlas, joined.seams_of(k, result.new_seams)))
+        uvs = stored_uvs(result.corner_uvs)
+        write = self._write_uvs if result.cut is None else self._write_cut
+        with ExitStack() as on_failure:
+            maps = [self._target(obj, part, on_failure) for obj, part in zip(objs, self.parts, strict=True)]
+            write(objs, maps, result, uvs, on_failure)
+            on_failure.pop_all()
         return self._done(result, maps)
 
     def _still_there(self, part):
@@ -90,26 +89,34 @@ class Atlas:
             raise bridge.MeshError("the mesh was changed meanwhile; nothing was written")
         return obj
 
-    def _plan(self, k, obj, result, uvs):
-        if result.cut is None:
-            return None
-        cuts.check_divisible(obj)  # again: its mode may be another by now
-        cut, own_uvs = self.request.joined.cut_of(k, result.cut, uvs)
-        return plan_cut(self.parts[k].atlas, cut, own_uvs)
+    def _target(self, obj, part, on_failure):
+        """The name of the UV map that is to be written."""
+        if self.options.write_to != "COPY":
+            return part.uv_map
+        copied, before = bridge.add_copy(obj, part.uv_map)
+        on_failure.callback(bridge.remove_copy, obj, copied, before)
+        return copied
 
-    def _write_part(self, obj, part, plan, uvs):
-        """Returns the name of the UV map that was written."""
-        target = bridge.add_copy(obj, part.uv_map) if self.options.write_to == "COPY" else part.uv_map
-        try:
-            if plan is not None:
-                cuts.write_cut(obj, target, plan, self.options.mark_seams)
-            else:
-                bridge.write_uvs(obj, target, uvs)
-        except Exception:
-            if target != part.uv_map:
-                bridge.remove_copy(obj, part.uv_map, target)
-            raise
-        return target
+    def _write_uvs(self, objs, maps, result, uvs, on_failure):
+        joined = self.request.joined
+        seams = []
+        if self.options.mark_seams:
+            seams = [seam_edges(part.atlas, joined.seams_of(k, result.new_seams)) for k, part in enumerate(self.parts)]
+        for k, (obj, uv_map) in enumerate(zip(objs, maps, strict=True)):
+            bridge.write_uvs(obj, uv_map, joined.uvs_of(k, uvs))
+            on_failure.callback(bridge.write_uvs, obj, uv_map, self.parts[k].atlas.corner_uvs)
+        for obj, edges in zip(objs, seams, strict=False):
+            bridge.mark_seams(obj, edges)
+
+    def _write_cut(self, objs, maps, result, uvs, _on_failure):
+        """What can fail is done for every object before the first is changed: divided faces are not put together again."""
+        rehearsed = []
+        for k, (obj, uv_map) in enumerate(zip(objs, maps, strict=True)):
+            cuts.check_divisible(obj)  # again: its mode may be another by now
+            plan = plan_cut(self.parts[k].atlas, *self.request.joined.cut_of(k, result.cut, uvs))
+            rehearsed.append(cuts.rehearse_cut(obj, uv_map, plan, self.options.mark_seams))
+        for write in rehearsed:
+            write()
 
     def _done(self, result, maps):
         prints = tuple((part.name, uv_map, _print(part.name, uv_map)) for part, uv_map in zip(self.parts, maps, strict=True))
@@ -125,8 +132,9 @@ class Atlas:
     def measure(self):
         """What the panel shows of the meshes as they are: a Done for each texture or tile."""
         prints = tuple((part.name, part.uv_map, _print(part.name, part.uv_map)) for part in self.parts)
+        box = {name: self.request.arguments[name] for name in ("box_aspect", "in_texture")}
         for name, arrays in self.request.boxes():
-            measures = engine.measure(*arrays, **self.options.box_arguments(self.texture))
+            measures = engine.measure(*arrays, **box)
             yield self._shown(prints, ", ".join(filter(None, (self.title, name))), measures=measures)
 
     def _shown(self, prints, title, **found):
@@ -208,13 +216,12 @@ def read_atlases(context, options, problems):
     by_object = options.atlases == "OBJECT"
     out, idle = [], []
     for objs in ([obj] for obj in usable) if by_object else [usable] if usable else []:
-        title = objs[0].name if len(objs) == 1 else counted(len(objs), "object")
         try:
             out.append(Atlas(context, objs, options))
         except NothingToDoError as error:
-            idle.append((title, str(error)))
+            idle.append((_title(objs), str(error)))
         except FAILURES as error:
-            problems.append((title, str(error)))
+            problems.append((_title(objs), str(error)))
     # Of several objects those without a selection are simply not meant.
     if not out and not problems:
         problems += idle
@@ -224,7 +231,7 @@ def read_atlases(context, options, problems):
 def measure_all(context, options, problems):
     """A Done for each atlas as it is."""
     out = []
-    for atlas in read_atlases(context, options, problems):
+    for atlas in read_atlases(context, replace(options, seams="NONE"), problems):  # it cuts nothing: what bars cuts is no matter
         try:
             out += atlas.measure()
         except FAILURES as error:
@@ -232,6 +239,10 @@ def measure_all(context, options, problems):
     if out:
         show(out)
     return out
+
+
+def _title(objs):
+    return objs[0].name if len(objs) == 1 else counted(len(objs), "object")
 
 
 def _read(context, obj, options, material_numbers):

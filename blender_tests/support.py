@@ -143,12 +143,15 @@ def changes(before, after):
     return sorted(name for name in set(before) | set(after) if before.get(name) != after.get(name))
 
 
-def texture_share(obj):
+def texture_share(*objs):
     """Of the texture's square, from the stored values, where all of them lie in it."""
-    layer = obj.data.uv_layers.active
-    uvs = get_uvs(layer).astype(np.float64)
-    assert np.all((uvs >= 0) & (uvs <= 1)), (uvs.min(), uvs.max())
-    return packing_efficiency(obj.data, layer) * np.prod(uvs.max(axis=0) - uvs.min(axis=0))
+    share = 0.0
+    for obj in objs:
+        layer = obj.data.uv_layers.active
+        uvs = get_uvs(layer).astype(np.float64)
+        assert np.all((uvs >= 0) & (uvs <= 1)), (uvs.min(), uvs.max())
+        share += packing_efficiency(obj.data, layer) * np.prod(uvs.max(axis=0) - uvs.min(axis=0))
+    return share
 
 
 def messages(operator, **options):

@@ -22,29 +22,39 @@ def check_divisible(obj):
 
 
 def write_cut(obj, uv_map, plan, mark_seams=True):
-    """Makes the object's mesh the plan's. Raises with the mesh as it was: everything is done to a copy first."""
+    """Makes the object's mesh the plan's. Raises with the mesh as it was."""
+    rehearse_cut(obj, uv_map, plan, mark_seams)()
+
+
+def rehearse_cut(obj, uv_map, plan, mark_seams=True):
+    """Does to a copy all of write_cut() that may fail. Returns the function that does the rest."""
     if obj.mode == "EDIT":
-        _write_in_edit_mode(obj, uv_map, plan, mark_seams)
-    else:
-        _write_in_object_mode(obj.data, uv_map, plan, mark_seams)
+        return _rehearse_in_edit_mode(obj, uv_map, plan, mark_seams)
+    return _rehearse_in_object_mode(obj.data, uv_map, plan, mark_seams)
 
 
-def _write_in_object_mode(mesh, uv_map, plan, mark_seams):
+def _rehearse_in_object_mode(mesh, uv_map, plan, mark_seams):
     normals = versions.custom_normals(mesh)
     built = bmesh.new()
     try:
         built.from_mesh(mesh)
         divide(built, uv_map, plan, mark_seams)
         order = _check(built, uv_map, plan)
-        built.to_mesh(mesh)
-    finally:
+    except Exception:
         built.free()
-    if normals is not None:
-        versions.set_custom_normals(mesh, plan.directions(normals)[order])
-    mesh.update()
+        raise
+
+    def write():
+        built.to_mesh(mesh)
+        built.free()
+        if normals is not None:
+            versions.set_custom_normals(mesh, plan.directions(normals)[order])
+        mesh.update()
+
+    return write
 
 
-def _write_in_edit_mode(obj, uv_map, plan, mark_seams):
+def _rehearse_in_edit_mode(obj, uv_map, plan, mark_seams):
     """The edit mesh itself is divided, so that selection and edit mode's memory of shape keys stay; custom normals can only be
     written in object mode."""
     live = bmesh.from_edit_mesh(obj.data)
@@ -55,13 +65,18 @@ def _write_in_edit_mode(obj, uv_map, plan, mark_seams):
         order = _check(rehearsal, uv_map, plan)
     finally:
         rehearsal.free()
-    divide(live, uv_map, plan, mark_seams)
-    live.normal_update()
-    bmesh.update_edit_mesh(obj.data, loop_triangles=True, destructive=True)
-    if normals is not None:
-        bpy.ops.object.mode_set(mode="OBJECT")
-        versions.set_custom_normals(obj.data, plan.directions(normals)[order])
-        bpy.ops.object.mode_set(mode="EDIT")
+
+    def write():
+        live = bmesh.from_edit_mesh(obj.data)  # another object's write() may have left edit mode meanwhile
+        divide(live, uv_map, plan, mark_seams)
+        live.normal_update()
+        bmesh.update_edit_mesh(obj.data, loop_triangles=True, destructive=True)
+        if normals is not None:
+            bpy.ops.object.mode_set(mode="OBJECT")
+            versions.set_custom_normals(obj.data, plan.directions(normals)[order])
+            bpy.ops.object.mode_set(mode="EDIT")
+
+    return write
 
 
 def _custom_normals_in_edit_mode(live, mesh):

@@ -58,33 +58,36 @@ def read_triangles(obj):
         return np.array(rows, dtype=np.int32).reshape(-1, 3)
     mesh = obj.data
     versions.calc_loop_triangles(mesh)
-    loops = _integers(mesh.loop_triangles, "loops", 3).reshape(-1, 3)
-    faces = _integers(mesh.loop_triangles, "polygon_index")
-    return loops[_integers(mesh.polygons, "loop_total")[faces] > 3]
+    loops = integers(mesh.loop_triangles, "loops", 3).reshape(-1, 3)
+    faces = integers(mesh.loop_triangles, "polygon_index")
+    return loops[integers(mesh.polygons, "loop_total")[faces] > 3]
 
 
 def read_material_indices(obj):
     if obj.mode == "EDIT":
         return np.array([face.material_index for face in bmesh.from_edit_mesh(obj.data).faces], dtype=np.int32)
-    return _integers(obj.data.polygons, "material_index")
+    return integers(obj.data.polygons, "material_index")
 
 
 def add_copy(obj, uv_map):
-    """The name of a new UV map that holds what the named one does, and is active."""
+    """Adds a UV map that holds what the named one does, and is active. Returns its name, and that of the one that was active."""
     layers = obj.data.uv_layers
+    before = layers.active.name
     layers.active = layers[uv_map]
     copy = layers.new(name=f"{uv_map} refined", do_init=True)
     if copy is None:
+        layers.active = layers[before]
         raise MeshError("the mesh has no room for another UV map")
     name = copy.name
     layers.active = layers[name]
-    return name
+    return name, before
 
 
-def remove_copy(obj, uv_map, copied):
+def remove_copy(obj, copied, before):
+    """Takes back what add_copy() did."""
     layers = obj.data.uv_layers
     layers.remove(layers[copied])
-    layers.active = layers[uv_map]
+    layers.active = layers[before]
 
 
 def mark_seams(obj, edges):
@@ -117,7 +120,8 @@ def _store(obj, uv_map, uvs):
         mesh.update()
 
 
-def _integers(elements, attribute, each=1):
+def integers(elements, attribute, each=1):
+    """What elements of a mesh, each with so many, hold in an attribute, flat."""
     values = np.empty(each * len(elements), dtype=np.int32)
     elements.foreach_get(attribute, values)
     return values
@@ -126,8 +130,8 @@ def _integers(elements, attribute, each=1):
 def _read_mesh(mesh, uv_map):
     positions = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", positions)
-    corner_vertices = _integers(mesh.loops, "vertex_index")
-    starts, sizes = _integers(mesh.polygons, "loop_start"), _integers(mesh.polygons, "loop_total")
+    corner_vertices = integers(mesh.loops, "vertex_index")
+    starts, sizes = integers(mesh.polygons, "loop_start"), integers(mesh.polygons, "loop_total")
     offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
     if not np.array_equal(offsets[:-1], starts) or offsets[-1] != len(mesh.loops):
         raise MeshError("the corners of the mesh's faces are not in order: run Mesh.validate() on it")

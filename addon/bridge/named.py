@@ -5,7 +5,7 @@ where an object has none of that name."""
 import bmesh
 import numpy as np
 
-from .mesh import MeshError
+from .mesh import MeshError, integers
 
 #: A vertex of weight 1 counts as much more than one without.
 MOST_IMPORTANT = 10.0
@@ -44,8 +44,7 @@ def edges(obj, name):
         mesh.verts.index_update()
         ends = np.array([[vert.index for vert in edge.verts] for edge in mesh.edges], dtype=np.int32)
     else:
-        ends = np.empty(2 * len(obj.data.edges), dtype=np.int32)
-        obj.data.edges.foreach_get("vertices", ends)
+        ends = integers(obj.data.edges, "vertices", 2)
     return ends.reshape(-1, 2)[values != 0]
 
 

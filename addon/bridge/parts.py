@@ -43,7 +43,7 @@ def read_part(context, obj, options, material_numbers):
     """`material_numbers`: a dict that is shared by the parts of an atlas, and grows."""
     uv_map = bridge.find_uv_map(obj.data, options.uv_map)
     atlas = bridge.read_atlas(obj, uv_map)
-    hidden, selected, pinned = selection.read_flags(obj, uv_map, selection.by_faces(context))
+    hidden, selected, pinned = selection.read_flags(obj, uv_map, atlas.face_offsets, selection.by_faces(context))
     return Part(
         name=obj.name,
         uv_map=uv_map,

@@ -1,20 +1,33 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Faces that are at fault, for Select UV Problems."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ..core.manifold import faces_at_fault
 from . import mesh as bridge
 
-#: What find() tells, and what a face of the kind is called.
+
+class Kind(NamedTuple):
+    label: str
+    description: str
+    word: str  # what a face of the kind is called
+
+
+#: What find() tells.
 KINDS = {
-    "overlapping": "overlapping",
-    "flipped": "flipped",
-    "zero_area": "zero-area",
-    "unwrapped": "not unwrapped",
-    "mirrored": "mirrored",
-    "non_manifold": "non-manifold",
-    "left": "left",
+    "overlapping": Kind("Overlapping", "Faces that cover a part of another face in the UV map; stacks too", "overlapping"),
+    "flipped": Kind("Flipped", "Faces that are turned over against the rest of their chart", "flipped"),
+    "zero_area": Kind("Zero Area", "Faces without area in the UV map", "zero-area"),
+    "unwrapped": Kind("Not Unwrapped", "Charts that are a point or a line in the UV map", "not unwrapped"),
+    "mirrored": Kind("Mirrored", "Charts that are turned over as a whole", "mirrored"),
+    "non_manifold": Kind(
+        "Non-Manifold", "Faces at edges of more than two faces, or wound against their neighbour", "non-manifold"
+    ),
+    "left": Kind(
+        "Left by the Last Run", "Charts that the refinement whose result is shown could not use, whatever the reason", "left"
+    ),
 }
 
 

@@ -13,19 +13,15 @@ def by_faces(context):
     return in_3d_view or context.scene.tool_settings.use_uv_select_sync
 
 
-def read_flags(obj, uv_map, faces_count):
+def read_flags(obj, uv_map, face_offsets, faces_count):
     """(hidden, selected, pinned) faces, bool. In object mode all are selected. `faces_count`: by_faces()."""
     if obj.mode == "EDIT":
         return _of_edit_mesh(bmesh.from_edit_mesh(obj.data), uv_map, faces_count)
     mesh = obj.data
     hidden = np.zeros(len(mesh.polygons), dtype=bool)
     mesh.polygons.foreach_get("hide", hidden)
-    pinned = np.zeros(len(mesh.polygons), dtype=bool)
     corners = versions.pinned_corners(mesh, uv_map)
-    if corners is not None and corners.any():
-        sizes = np.empty(len(mesh.polygons), dtype=np.int32)
-        mesh.polygons.foreach_get("loop_total", sizes)
-        np.logical_or.at(pinned, np.repeat(np.arange(len(sizes)), sizes), corners)
+    pinned = np.zeros(len(hidden), dtype=bool) if corners is None else np.logical_or.reduceat(corners, face_offsets[:-1])
     return hidden, np.ones(len(hidden), dtype=bool), pinned
 
 

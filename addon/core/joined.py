@@ -70,6 +70,14 @@ class Joined:
         """One array of a value per face of the taken faces, from one per part."""
         return np.concatenate([value[faces] for value, faces in zip(values, self.faces, strict=True)])
 
+    def values(self, name, otherwise):
+        """The values per taken face that parts name, `otherwise` in the other parts; None where no part does."""
+        named = [getattr(part, name) for part in self.parts]
+        if all(values is None for values in named):
+            return None
+        pairs = zip(self.parts, named, strict=True)
+        return self.of_faces([np.full(len(part.taken), otherwise) if values is None else values for part, values in pairs])
+
     def triangles(self):
         out = []
         for (part, _, corners), first in self._with(self.first_corners):
@@ -102,8 +110,7 @@ class Joined:
 
     def cut_of(self, k, cut, corner_uvs):
         """(the engine's CutMesh as that of one part, the UVs of its corners); all faces of the part must be taken."""
-        faces = np.flatnonzero((cut.face_sources >= self.first_faces[k]) & (cut.face_sources < self.first_faces[k + 1]))
-        begin, end = int(faces[0]), int(faces[-1]) + 1
+        begin, end = np.searchsorted(cut.face_sources, self.first_faces[k : k + 2])
         corners = slice(int(cut.face_offsets[begin]), int(cut.face_offsets[end]))
         first, count = self.first_vertices[k], len(self.parts[k].atlas.positions)
         vertices = cut.corner_vertices[corners].astype(np.int64)

@@ -23,7 +23,7 @@ class Options:
     cut: str = "EDGES"  # EDGES or SPLIT: along the mesh's edges, or across faces
     gap: str = "PIXELS"  # PIXELS or AUTO
     gap_px: float = 4.0
-    texture_size: int = 2048  # where no image tells it
+    texture_size: int = 2048  # where aspect does not take it from an image
     stacks: str = "KEEP"  # KEEP or SEPARATE
     density: str = "KEEP"  # KEEP or EQUAL
     atlases: str = "ALL"  # ALL, OBJECT or MATERIAL
@@ -59,7 +59,7 @@ class Options:
             "best_effort": self.best_effort,
             "stored": "float32",
         }
-        if self.max_distortion > 0:
+        if self.max_distortion != 0:  # the engine refuses what is below 1
             arguments["max_distortion"] = round(self.max_distortion, 6)
         if self.seams == "RECTANGLES":
             arguments.update(sigma=round(self.sigma, 6), candidates=self.candidates)

@@ -49,8 +49,7 @@ class Request:
 def prepare(engine, parts, options, texture=None, tile=(0, 0), material_names=()):
     """`engine`: the atlas_refine module; `tile`: the active one. Sets Part.taken. Raises NothingToDoError."""
     locked = [_choose(engine, part, options) for part in parts]
-    if not any(np.any(part.taken & ~flags) for part, flags in zip(parts, locked, strict=True)):
-        raise NothingToDoError(_why_nothing(parts))
+    _require_work(parts, locked, _why_nothing(parts))
     of_faces, corners, tile_names = _tiles(engine, parts, options, texture, tile)
     _require_work(parts, locked, "no chart that may be moved lies in the active tile")
     by_material = options.atlases == "MATERIAL"
@@ -124,18 +123,13 @@ def _leave_out(parts, flags):
 
 
 def _arguments_of(joined, locked):
-    parts = joined.parts
-    arguments = {"triangles": joined.triangles(), "no_seam": joined.edges("no_seam"), "prefer_seam": joined.edges("prefer_seam")}
+    arguments = {
+        "triangles": joined.triangles(),
+        "no_seam": joined.edges("no_seam"),
+        "prefer_seam": joined.edges("prefer_seam"),
+        "keep_shape": joined.values("keep_shape", False),
+        "importance": joined.values("importance", 1.0),
+    }
     if any(flags.any() for flags in locked):
         arguments["locked"] = joined.of_faces(locked)
-    if any(part.keep_shape is not None for part in parts):
-        none = [np.zeros(len(part.taken), dtype=bool) for part in parts]
-        arguments["keep_shape"] = joined.of_faces([_or(p.keep_shape, n) for p, n in zip(parts, none, strict=True)])
-    if any(part.importance is not None for part in parts):
-        one = [np.ones(len(part.taken)) for part in parts]
-        arguments["importance"] = joined.of_faces([_or(p.importance, o) for p, o in zip(parts, one, strict=True)])
     return arguments
-
-
-def _or(value, otherwise):
-    return otherwise if value is None else value

@@ -1,18 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Who takes part: selection, pins, hidden faces, materials and tiles decide over whole charts."""
 
-from dataclasses import dataclass
-
 import numpy as np
-
-
-@dataclass(frozen=True)
-class Groups:
-    """Several boxes in one run; empty arrays where there is one."""
-
-    groups: np.ndarray  # (faces,) of what is given to the engine
-    origins: np.ndarray  # (G, 2)
-    names: list
 
 
 def any_in_chart(charts, flags):

@@ -18,8 +18,8 @@ def plain(message):
     return _CHART.sub(lambda found: f"face {found.group(1)}" if found.group(1) else "1 chart", message)
 
 
-def counted(count, one, many=None):
-    return f"{count} {one if count == 1 else many or one + 's'}"
+def counted(count, one):
+    return f"{count} {one if count == 1 else one + 's'}"
 
 
 def phase(stage):
@@ -27,10 +27,8 @@ def phase(stage):
     return {
         "input": "reading",
         "repair": "mending",
-        "embed": "mending",
         "align": "straightening",
         "layout": "planning cuts",
-        "cut": "cutting",
         "pack": "packing",
         "squeeze": "bending",
         "reduce": "relaxing",

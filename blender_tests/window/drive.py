@@ -54,7 +54,10 @@ def point(offset):
 
 
 def click(offset):
-    x, y = point(offset)
+    yield from click_at(*point(offset))
+
+
+def click_at(x, y):
     window().event_simulate("MOUSEMOVE", "NOTHING", x=x, y=y)
     yield 0.2
     window().event_simulate("LEFTMOUSE", "PRESS", x=x, y=y)
@@ -292,12 +295,7 @@ def test_the_3d_view_has_the_panel():
     area.spaces.active.show_region_ui = True
     yield 1.0
     region = next(region for region in area.regions if region.type == "UI")
-    at = (region.x + region.width - TAB[0], region.y + region.height - TAB_3D)
-    window().event_simulate("MOUSEMOVE", "NOTHING", x=at[0], y=at[1])
-    yield 0.2
-    window().event_simulate("LEFTMOUSE", "PRESS", x=at[0], y=at[1])
-    yield 0.1
-    window().event_simulate("LEFTMOUSE", "RELEASE", x=at[0], y=at[1])
+    yield from click_at(region.x + region.width - TAB[0], region.y + region.height - TAB_3D)
     yield from until(lambda: drawn, "the panel is not drawn")
     yield 0.3
     picture("3d-view")

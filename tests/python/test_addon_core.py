@@ -59,6 +59,13 @@ def test_the_density():
     assert Options().engine_arguments()["stored"] == "float32"
 
 
+def test_every_limit_but_0_reaches_the_engine():
+    assert "max_distortion" not in Options().engine_arguments()
+    arguments = Options(max_distortion=-1.0).engine_arguments()
+    with pytest.raises(atlas_refine.AtlasRefineError, match="the largest distortion must be"):
+        atlas_refine.refine(*shapes.loose(), **arguments)
+
+
 def test_sigma_goes_with_rectangles_only():
     arguments = Options(seams="RECTANGLES", sigma=float(np.float32(0.004))).engine_arguments()
     assert (arguments["seams"], arguments["sigma"]) == ("rectangles", 0.004)

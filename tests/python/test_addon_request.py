@@ -158,6 +158,20 @@ def test_a_cut_of_several_meshes_is_dealt_out_to_each():
     assert all(len(plan.new_seams) for plan in plans)
 
 
+def test_a_mesh_without_faces_has_its_part_of_a_cut():
+    empty = np.zeros((3, 3)), np.zeros(1, int), np.zeros(0, int), np.zeros((0, 2))
+    for at in range(3):
+        parts = [make_part(name="First"), make_part(name="Second")]
+        parts.insert(at, make_part(empty, name="Empty"))
+        request = prepare(atlas_refine, parts, Options(aspect="FREE", gap="AUTO", seams="RECTANGLES", cut="SPLIT", candidates=20))
+        result = run(request)
+        uvs = stored_uvs(result.corner_uvs)
+        plans = [plan_cut(part.atlas, *request.joined.cut_of(k, result.cut, uvs)) for k, part in enumerate(parts)]
+        assert sum(len(plan.face_sources) for plan in plans) == len(result.cut.face_sources)
+        assert len(plans[at].face_sources) == 0
+        assert len(plans[at].atlas.positions) == 3
+
+
 def test_protected_faces_and_edges_go_to_the_engine():
     parts = [make_part(name="A"), make_part(name="B")]
     parts[1].keep_shape = faces(parts[1], *THIRD)
