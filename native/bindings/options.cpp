@@ -89,15 +89,33 @@ void add_chart_readers(std::map<std::string, Reader>& table) {
   };
 }
 
+/// Where seams may come from, and what needed ones are asked.
+void add_needed_readers(std::map<std::string, Reader>& table) {
+  using H = const py::handle&;
+  using S = const std::string&;
+  table["seams"] = choice_reader<Seams>(&RefineOptions::seams,
+                                        {{"none", Seams::None}, {"needed", Seams::Needed}, {"rectangles", Seams::Rectangles}});
+  table["effort"] =
+      choice_reader<Effort>(&RefineOptions::effort, {{"fast", Effort::Fast}, {"normal", Effort::Normal}, {"best", Effort::Best}});
+  table["trade_off"] = flag_reader(&RefineOptions::trade_off);
+  table.merge(std::map<std::string, Reader>{
+      {"max_boundary_growth",
+       [](Keywords& k, H v, S s) {
+         if (!v.is_none()) k.options.max_boundary_growth = number(v, s);
+       }},
+      {"seam_cost", [](Keywords& k, H v, S s) { k.options.seam_cost = number(v, s); }},
+      {"point",
+       [](Keywords& k, H v, S s) {
+         if (!v.is_none()) k.options.point = read<int>(v, s, "a whole number");
+       }},
+  });
+}
+
 std::map<std::string, Reader> make_readers() {
   using H = const py::handle&;
   using S = const std::string&;
   std::map<std::string, Reader> table = {
       {"pe_bound", [](Keywords& k, H v, S s) { k.options.pe_bound = number(v, s); }},
-      {"seams",
-       [](Keywords& k, H v, S s) {
-         k.options.seams = choice<Seams>(v, s, {{"none", Seams::None}, {"rectangles", Seams::Rectangles}});
-       }},
       {"sigma", [](Keywords& k, H v, S s) { k.options.rectangles.sigma = number(v, s); }},
       {"candidates", [](Keywords& k, H v, S s) { k.options.rectangles.candidates = read<int>(v, s, "a whole number"); }},
       {"omega", [](Keywords& k, H v, S s) { k.options.rectangles.omega = number(v, s); }},
@@ -136,6 +154,7 @@ std::map<std::string, Reader> make_readers() {
       {"name", [](Keywords& k, H v, S s) { k.name = read<std::string>(v, s, "a string"); }},
   };
   add_chart_readers(table);
+  add_needed_readers(table);
   return table;
 }
 

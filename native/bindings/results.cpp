@@ -168,6 +168,19 @@ void bind_rectangle_report(py::module_& module) {
       .field("packed_pe", &RectangleReport::packed_pe);
 }
 
+void bind_cut_report(py::module_& module) {
+  ValueClass<TradeOff>(module, "TradeOff", "Boundary against distortion: one outcome of the search for cuts.")
+      .field("boundary_growth", &TradeOff::boundary_growth)
+      .field("distortion", &TradeOff::distortion)
+      .field("cuts", &TradeOff::cuts)
+      .field("squeezed", &TradeOff::squeezed);
+  ValueClass<CutReport>(module, "CutReport", "How the search for cuts went; each field is explained in the type stub.")
+      .field("cuts", &CutReport::cuts)
+      .field("tried", &CutReport::tried)
+      .field("trade_off", &CutReport::trade_off)
+      .field("chosen", &CutReport::chosen);
+}
+
 void bind_chart_reports(py::module_& module) {
   ValueClass<ChartReport>(module, "ChartReport", "One chart of the input, and what it went through.")
       .field("faces", &ChartReport::faces)
@@ -218,6 +231,7 @@ void bind_refine_result(py::module_& module) {
       .field("before", &RefineResult::before)
       .field("after", &RefineResult::after)
       .field("added_seams", &RefineResult::added_seams)
+      .field("boundary_growth", &RefineResult::boundary_growth)
       .property("new_seams",
                 [](const RefineResult& r) {
                   return table<std::int32_t>(r.new_seams.size(), 2, [&](std::size_t i, int k) { return r.new_seams[i][k]; });
@@ -231,6 +245,7 @@ void bind_refine_result(py::module_& module) {
       .property("face_charts", [](const RefineResult& r) { return to_array(r.face_charts); })
       .field("pieces", &RefineResult::pieces)
       .field("rectangles", &RefineResult::rectangles)
+      .field("cuts", &RefineResult::cuts)
       .field("groups", &RefineResult::groups)
       .field("repairs", &RefineResult::repairs)
       .field("fallbacks", &RefineResult::fallbacks)
@@ -270,6 +285,7 @@ void bind_results(py::module_& module) {
   bind_measures(module);
   bind_cut_mesh(module);
   bind_rectangle_report(module);
+  bind_cut_report(module);
   bind_repairs_and_groups(module);
   bind_refine_result(module);
 }

@@ -63,6 +63,7 @@ struct Draft {
   std::optional<double> gap_texels;
   std::optional<unsigned> texture_size;
   const char* first_for_rectangles = nullptr;  ///< the first option on the line that only --seams rectangles reads
+  const char* first_for_needed = nullptr;      ///< the same of --seams needed
 };
 
 using Setter = std::function<void(const Value&)>;
@@ -97,11 +98,13 @@ void add_files(CLI::App& app, CommandLine& line) {
 void add_goal(CLI::App& app, RefineOptions& options) {
   add(app, "--pe-bound", "PE", "Packing efficiency to reach, between 0 and 1 [0.8]",
       [&](const Value& v) { options.pe_bound = v.number_in(0, 1, true, "a number between 0 and 1, both excluded"); });
-  add(app, "--seams", "none|rectangles",
-      "Where new seams may come from: none are added, or charts are cut into rectangles (Liu et al. 2019) [none]",
+  add(app, "--seams", "none|needed|rectangles",
+      "Where new seams may come from: none are added, charts are cut where distortion is above --max-distortion or where a cut "
+      "saves more than --seam-cost, or all are cut into rectangles (Liu et al. 2019) [none]",
       [&](const Value& v) {
-        if (v.text != "none" && v.text != "rectangles") v.refuse("must be 'none' or 'rectangles'");
-        options.seams = v.text == "none" ? Seams::None : Seams::Rectangles;
+        if (v.text != "none" && v.text != "needed" && v.text != "rectangles")
+          v.refuse("must be 'none', 'needed' or 'rectangles'");
+        options.seams = v.text == "none" ? Seams::None : v.text == "needed" ? Seams::Needed : Seams::Rectangles;
       });
   add(app, "--cut", "split|edges",
       "How cuts run: across faces, which are divided, or along edges of IN's faces, which keeps its mesh exactly [split]",
@@ -114,7 +117,8 @@ void add_goal(CLI::App& app, RefineOptions& options) {
       app, "--relax", options.relax,
       "Where less would hold the bound, go on to the least distortion under it; rectangles do so anyway, unless --until-input");
   add_flag(app, "--best-effort", options.best_effort,
-           "Where the bound is missed write the best valid atlas found; --max-distortion is kept all the same");
+           "Where the bound is missed write the best valid atlas found; --max-distortion is kept all the same, but with needed "
+           "seams");
   add(app, "--density", "equal|keep",
       "One scale for all charts, or each chart's own as in IN as far as bending leaves it that [equal]", [&](const Value& v) {
         if (v.text != "equal" && v.text != "keep") v.refuse("must be 'equal' or 'keep'");
@@ -189,6 +193,36 @@ void add_kept(CLI::App& app, CommandLine& line) {
   });
   add_flag(app, "--align-axes", options.align_axes,
            "Where charts are moved, turn those whose longest border runs straight so that it lies on an axis");
+}
+
+void add_needed(CLI::App& app, Draft& draft) {
+  RefineOptions& options = draft.line.options;
+  const auto add_one = [&](const char* name, const char* unit, const std::string& help, const Setter& set) {
+    add(app, name, unit, "With needed seams: " + help, [&draft, name, set](const Value& v) {
+      set(v);
+      if (!draft.first_for_needed) draft.first_for_needed = name;
+    });
+  };
+  add_one("--max-boundary-growth", "R", "how much boundary cuts may add, as a fraction of that of all charts [no limit]",
+          [&](const Value& v) { options.max_boundary_growth = v.number_in(0, HUGE_VAL, false, "a number of at least 0"); });
+  add_one("--seam-cost", "C", "without --max-distortion, the E_d that a cut must save for each unit of boundary growth [0.1]",
+          [&](const Value& v) { options.seam_cost = v.number_in(0, HUGE_VAL, false, "a number of at least 0"); });
+  add_one("--effort", "fast|normal|best", "how many cuts are tried: the more, the fewer seams [normal]", [&](const Value& v) {
+    if (v.text != "fast" && v.text != "normal" && v.text != "best") v.refuse("must be 'fast', 'normal' or 'best'");
+    options.effort = v.text == "fast" ? Effort::Fast : v.text == "best" ? Effort::Best : Effort::Normal;
+  });
+  add_one("--trade-off", "T.csv",
+          "look for all outcomes that are worth a choice between seams and distortion, and write them, and E_d without cuts from "
+          "PE 0.60 to 0.95, as a table and, beside it, a picture T.svg",
+          [&](const Value& v) {
+            draft.line.trade_off = v.text;
+            if (draft.line.trade_off->extension() != ".csv") v.refuse("must be a name that ends in .csv");
+            options.trade_off = true;
+          });
+  add_one("--point", "K", "which line of the trade-off is written, from 0 on [what the limits ask for]", [&](const Value& v) {
+    options.point = v.as<int>("a whole number from 0 on");
+    if (*options.point < 0) v.refuse("must be a whole number from 0 on");
+  });
 }
 
 void add_rectangles(CLI::App& app, Draft& draft) {
@@ -280,6 +314,9 @@ CommandLine settled_refine(Draft draft) {
   if (line.options.rectangles.until_input && !draft.first_for_rectangles) draft.first_for_rectangles = "--until-input";
   if (draft.first_for_rectangles && line.options.seams != Seams::Rectangles)
     throw UsageError(std::string(draft.first_for_rectangles) + ": needs --seams rectangles");
+  if (draft.first_for_needed && line.options.seams != Seams::Needed)
+    throw UsageError(std::string(draft.first_for_needed) + ": needs --seams needed");
+  if (line.options.point && !line.trade_off) throw UsageError("--point: needs --trade-off");
   if (line.options.align_axes && line.options.rotate == Rotate::None)
     throw UsageError("--align-axes: cannot be combined with --rotate none");
   settle_gap(draft);
@@ -311,7 +348,7 @@ CommandLine printing(std::string text) {
 }
 
 constexpr const char* purpose =
-    "Brings the UV atlas of OBJ files to a packing efficiency bound, without a new seam or with charts cut into rectangles.";
+    "Brings the UV atlas of OBJ files to a packing efficiency bound, without a new seam, or cut where that is needed.";
 constexpr const char* exit_codes =
     "Exit codes:\n"
     "  0    done\n"
@@ -336,6 +373,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_charts(app, draft.line);
   add_distortion(app, draft.line);
   add_kept(app, draft.line);
+  add_needed(app, draft);
   add_rectangles(app, draft);
   add_gap(app, draft);
   add_running(app, draft.line.options);

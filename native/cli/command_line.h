@@ -17,6 +17,7 @@ struct CommandLine {
   std::filesystem::path output;               ///< of a collection: the folder
   std::optional<std::filesystem::path> report;
   std::optional<std::filesystem::path> svg_folder;
+  std::optional<std::filesystem::path> trade_off;  ///< a CSV file; its picture lies beside it
   std::optional<std::filesystem::path> importance;
   std::string group_by = "none";  ///< none, material, object or tile
   std::optional<std::filesystem::path> keep_shape;
@@ -28,6 +29,7 @@ struct CommandLine {
   std::string text;   ///< PrintText: the help or the version
 
   bool is_collection() const { return inputs.size() > 1; }
+  std::filesystem::path trade_off_picture() const { return std::filesystem::path(*trade_off).replace_extension(".svg"); }
   /// Where the result of input `k` goes.
   std::filesystem::path output_of(int k) const { return is_collection() ? output / inputs[k].filename() : output; }
 };

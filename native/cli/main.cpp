@@ -23,6 +23,7 @@
 #include "output_file.h"
 #include "progress_bar.h"
 #include "report.h"
+#include "trade_off.h"
 
 namespace atlas_refine::cli {
 
@@ -85,6 +86,10 @@ void check_outputs(const CommandLine& line) {
     if (same_file(*line.report, line.inputs[k])) throw OutputError(*line.report, "is the input, not a place for the report");
   }
   if (line.svg_folder) check_folder_creatable(*line.svg_folder);
+  if (line.trade_off) {
+    check_writable(*line.trade_off);
+    check_writable(line.trade_off_picture());
+  }
 }
 
 std::unique_ptr<DebugSink> pictures(const CommandLine& line) {
@@ -132,9 +137,34 @@ RefineResult refine_with_progress(const Atlas& atlas, const RefineOptions& optio
   return refine(atlas, options, report_progress, debug);
 }
 
+/// E_d without cuts at one bound after the other, as far as they can be reached; what holds a bound holds those below it too.
+std::vector<PackingPoint> packing_curve(const Atlas& atlas, RefineOptions options) {
+  options.seams = Seams::None;
+  options.trade_off = false;
+  options.point.reset();
+  options.max_distortion.reset();
+  options.best_effort = options.relax = true;
+  std::vector<PackingPoint> out;
+  for (int percent = 60; percent <= 95; percent += 5) {
+    options.pe_bound = 0.01 * percent;
+    const RefineResult result = refine_with_progress(atlas, options, nullptr);
+    if (result.bound_met) out.push_back({options.pe_bound, result.after.distortion});
+  }
+  for (std::size_t k = out.size(); k > 1; --k) out[k - 2].distortion = std::min(out[k - 2].distortion, out[k - 1].distortion);
+  return out;
+}
+
+void add_trade_off(const CommandLine& line, const RefineResult& result, const std::vector<PackingPoint>& packing,
+                   std::list<PendingFile>& pending) {
+  const CutReport cuts = result.cuts.value_or(CutReport());
+  const double pe = line.options.pe_bound;
+  pending.emplace_back(*line.trade_off, trade_off_csv(pe, cuts.trade_off, packing));
+  pending.emplace_back(line.trade_off_picture(), trade_off_svg(pe, cuts.trade_off, packing, cuts.chosen));
+}
+
 /// The results and the report appear together, or none does.
 std::vector<FileReport> write_outputs(const CommandLine& line, const Collection& files, const RefineResult& result,
-                                      Times& times) {
+                                      const std::vector<PackingPoint>& packing, Times& times) {
   const InterruptScope ask(OnInterrupt::Ask);
   const auto start = std::chrono::steady_clock::now();
   std::unique_ptr<PendingFolder> folder;
@@ -149,6 +179,7 @@ std::vector<FileReport> write_outputs(const CommandLine& line, const Collection&
   }
   times.write = seconds_since(start);
   if (line.report) pending.emplace_back(*line.report, json_report(line, reports, result, times));
+  if (line.trade_off) add_trade_off(line, result, packing, pending);
   if (interrupted()) throw RefineError(ErrorCode::Cancelled, "write", "cancelled");
   commit_together(pending);
   if (folder) folder->keep();
@@ -186,6 +217,8 @@ int run_refine(CommandLine line) {
     const auto debug = pictures(line);
     start = std::chrono::steady_clock::now();
     RefineResult result = refine_with_progress(files.atlas(), line.options, debug.get());
+    std::vector<PackingPoint> packing;
+    if (line.trade_off) packing = packing_curve(files.atlas(), line.options);
     times.refine = seconds_since(start);
     const std::vector<std::string> notes = files.notes();
     result.warnings.insert(result.warnings.begin(), notes.begin(), notes.end());
@@ -193,7 +226,7 @@ int run_refine(CommandLine line) {
       const std::vector<std::string> shared = shared_by(line, files);
       result.warnings.insert(result.warnings.end(), shared.begin(), shared.end());
     }
-    const std::vector<FileReport> reports = write_outputs(line, files, result, times);
+    const std::vector<FileReport> reports = write_outputs(line, files, result, packing, times);
     std::fputs(summary(reports, result, times).c_str(), stdout);
     return complain_of_groups(files, result);
   } catch (const RefineError& error) {

@@ -64,14 +64,41 @@ Json to_json(const FileReport& file) {
           {"added_faces", file.added_faces}, {"vertices", file.vertices},      {"added_vertices", file.added_vertices}};
 }
 
+Json needed_options(const CommandLine& line) {
+  const RefineOptions& o = line.options;
+  return {{"max_boundary_growth", o.max_boundary_growth ? Json(*o.max_boundary_growth) : Json(nullptr)},
+          {"seam_cost", o.seam_cost},
+          {"effort", o.effort == Effort::Fast   ? "fast"
+                     : o.effort == Effort::Best ? "best"
+                                                : "normal"},
+          {"trade_off", line.trade_off ? Json(line.trade_off->string()) : Json(nullptr)},
+          {"point", o.point ? Json(*o.point) : Json(nullptr)}};
+}
+
+Json to_json(const CutReport& cuts) {
+  Json trade_off = Json::array();
+  for (const TradeOff& t : cuts.trade_off)
+    trade_off.push_back({{"boundary_growth", number(t.boundary_growth)},
+                         {"distortion", number(t.distortion)},
+                         {"cuts", t.cuts},
+                         {"squeezed", t.squeezed}});
+  return {{"cuts", cuts.cuts},
+          {"tried", cuts.tried},
+          {"trade_off", trade_off},
+          {"chosen", cuts.chosen < 0 ? Json(nullptr) : Json(cuts.chosen)}};
+}
+
 Json to_json(const CommandLine& line) {
   const RefineOptions& o = line.options;
   return {{"pe_bound", o.pe_bound},
-          {"seams", o.seams == Seams::Rectangles ? "rectangles" : "none"},
+          {"seams", o.seams == Seams::Rectangles ? "rectangles"
+                    : o.seams == Seams::Needed   ? "needed"
+                                                 : "none"},
           {"cut", o.cut == Cut::Edges ? "edges" : "split"},
           {"rectangles", o.seams == Seams::Rectangles ? to_json(o.rectangles) : Json(nullptr)},
           {"box_aspect", o.box_aspect == 0 ? Json("free") : Json(o.box_aspect)},
           {"gap", o.gap ? to_json(*o.gap) : Json("automatic")},
+          {"needed", o.seams == Seams::Needed ? needed_options(line) : Json(nullptr)},
           {"max_distortion", o.max_distortion ? Json(*o.max_distortion) : Json(nullptr)},
           {"relax", o.relax},
           {"best_effort", o.best_effort},
@@ -255,6 +282,7 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
                {"after", to_json(result.after)},
                {"added_seam_edges", result.added_seams},
                {"added_seam_length", number(seam_growth(result))},
+               {"boundary_growth", number(result.boundary_growth)},
                {"new_seams", result.new_seams},
                {"triangulations", to_json(result.triangulations)},
                {"gap", to_json(result.gap)},
@@ -264,6 +292,7 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
                {"charts", charts_of(result)},
                {"pieces", numbered(result.pieces)},
                {"rectangles", result.rectangles ? to_json(*result.rectangles) : Json(nullptr)},
+               {"cuts", result.cuts ? to_json(*result.cuts) : Json(nullptr)},
                {"groups", list_of(result.groups)},
                {"repairs", list_of(result.repairs)},
                {"fallbacks", result.fallbacks},

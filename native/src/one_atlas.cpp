@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "atlas_refine/error.h"
+#include "cut_as_needed.h"
 #include "input/check_atlas.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
@@ -123,6 +124,7 @@ CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
     // Also where charts are not cut, that road goes on to the optimum under the bound.
     options.relax = options.relax || !options.rectangles.until_input;
   }
+  if (options.seams == Seams::Needed) return certified(run, cut_as_needed(run, range.part(0, 0.96)), range);
   const Refinement whole{run.input, options, run.monitor, run.journal, run.threads, run.asked};
   return certified(whole, refine_whole(whole, range.part(0, 0.96)), range);
 }
@@ -132,8 +134,13 @@ std::string shortfall(const InputAtlas& input, const RefineOptions& options, con
   const std::string figures =
       "packing efficiency " + number_text("%.4f", after.pe_fixed_aspect) + " at E_d " + number_text("%.4f", after.distortion);
   const std::string limit = options.max_distortion ? "a distortion of " + number_text("%g", *options.max_distortion) : "";
-  if (!within_limit(options, after.distortion))
-    return message_prefix(input.atlas) + "no atlas within " + limit + " was found; the least distorted one has " + figures;
+  if (!within_limit(options, after.distortion)) {
+    const std::string growth = options.seams == Seams::Needed && options.max_boundary_growth
+                                   ? " and a boundary growth of " + number_text("%g", *options.max_boundary_growth)
+                                   : "";
+    return message_prefix(input.atlas) + "no atlas within " + limit + growth + " was found; the least distorted one has " +
+           figures;
+  }
   if (after.pe_fixed_aspect >= options.pe_bound) return "";
   return message_prefix(input.atlas) + "the bound " + number_text("%g", options.pe_bound) + " was not reached" +
          (limit.empty() ? "" : " within " + limit) + "; the best found is " + figures +
@@ -150,12 +157,14 @@ Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, Certif
               .price = solution.price,
               .ended = solution.ended,
               .rectangles = solution.rectangles,
+              .cuts = std::move(solution.cuts),
               .charts = std::move(certified.atlas.charts),
               .pieces = std::move(certified.atlas.pieces)};
   const std::string missed = shortfall(input, options, out.after);
   out.bound_met = missed.empty();
-  if (!out.bound_met && !(options.best_effort && within_limit(options, out.after.distortion)))
-    throw RefineError(ErrorCode::BoundNotReached, "squeeze", missed);
+  // Where cuts are allowed a limit of distortion is a goal like the bound, else it is what the effort must keep.
+  const bool acceptable = options.seams == Seams::Needed || within_limit(options, out.after.distortion);
+  if (!out.bound_met && !(options.best_effort && acceptable)) throw RefineError(ErrorCode::BoundNotReached, "squeeze", missed);
   for (int c : solution.re_embedded) out.charts[c].re_embedded = true;
   out.atlas = std::move(solution.atlas);
   out.uvs = std::move(certified.atlas.uvs);

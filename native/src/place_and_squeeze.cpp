@@ -240,4 +240,19 @@ std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas&
   return result.distortion;
 }
 
+std::optional<double> forecast_distortion(const Refinement& run, const CutAtlas& atlas) {
+  const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), atlas);
+  const std::vector<Chart> pieces = meshes_of(atlas);
+  const SqueezeOptions options{.pe_bound = run.options.pe_bound,
+                               .box_aspect = run.options.box_aspect,
+                               .gaps = gaps_of(run, pieces, freedom, kMostTakenBent),
+                               .threads = run.threads,
+                               .freedom = freedom};
+  const PlacedCharts start = place(run, pieces, freedom, options.gaps.front(), kRoughly * run.options.pe_bound);
+  const Objective objective = goal_of(run.input.set.charts, atlas, run.options);
+  const ReduceResult result = forecast_squeeze({start}, objective, options, run.monitor).outcome;
+  if (!result.holds()) return std::nullopt;
+  return result.energy;
+}
+
 }  // namespace atlas_refine

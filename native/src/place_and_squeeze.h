@@ -23,4 +23,7 @@ bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare
 /// E_d that these pieces would have at the bound, roughly; nothing where that is above `most`.
 std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas& atlas, bool keeps_place, double most);
 
+/// The same without a limit, sooner and rougher; nothing where the bound is not reached. Several may run at once.
+std::optional<double> forecast_distortion(const Refinement& run, const CutAtlas& atlas);
+
 }  // namespace atlas_refine

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "atlas_refine/error.h"
+#include "geometry/boundary.h"
 #include "input/check_atlas.h"
 #include "input/join_edges.h"
 #include "input/take_part.h"
@@ -137,11 +138,14 @@ RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, 
   if (!tiles.faces.empty()) restore_left(input, whole.set, participants, assembled);
   const SeamCount seams = options.groups.empty() ? seams_of(whole.set) : seams_of(join_edges(atlas, Joining::AsMeant));
   measure_seams(input, tiles.faces.empty() ? seams : seams_of(join_edges(input, Joining::AsMeant)), result.before);
-  measure_seams(assembled.mesh, seams_of(join_edges(assembled.mesh, joining_after(participants, done))), result.after);
+  const SeamCount torn = seams_of(join_edges(assembled.mesh, joining_after(participants, done)));
+  measure_seams(assembled.mesh, torn, result.after);
   const int between_groups = whole.set.seam_edges - seams.edges;
   if (between_groups > 0)
     journal.warnings.push_back("charts of several groups were parted along " + std::to_string(between_groups) +
                                (between_groups == 1 ? " edge" : " edges"));
+  const double boundary = boundary_on_surface(whole.set.charts);
+  result.boundary_growth = boundary > 0 ? std::max(0.0, 2 * (torn.length - seams.length) / boundary) : 0;
   result.added_seams = assembled.cut_edges + parted + between_groups;
   result.corner_uvs = std::move(assembled.mesh.corner_uvs);
   result.cut = std::move(assembled.cut);

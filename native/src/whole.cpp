@@ -18,17 +18,23 @@ bool set_wanted_density(const Refinement& run, std::vector<Chart>& charts) {
 
 }  // namespace
 
-Solution refine_whole(const Refinement& run, const ProgressRange& range) {
-  run.journal.begin_stage("repair", range.part(0, 0.2));
+WholeCharts whole_charts(const Refinement& run, const ProgressRange& range) {
+  run.journal.begin_stage("repair", range);
   RepairedCharts repaired = repair_charts(run.input.set.charts, repair_options(run), run.monitor);
-  std::vector<int> mended = note_repairs(run, repaired);
+  WholeCharts out{.mended = note_repairs(run, repaired)};
   std::vector<Chart> charts = meshes_of(repaired.atlas);
   const auto points = points_in_space(repaired.atlas, run.input.set.points);
   const bool own_is_valid = certify_charts(charts, points, freedom_of(run.input.set, run.options)).valid();
   const bool scaled = set_wanted_density(run, charts);
-  repaired.atlas = with_uvs(std::move(repaired.atlas), uvs_of(charts));
-  Solution out = place_and_squeeze(run, repaired.atlas, own_is_valid && !scaled, range.part(0.2, 1));
-  out.re_embedded = std::move(mended);
+  out.atlas = with_uvs(std::move(repaired.atlas), uvs_of(charts));
+  out.keeps_place = own_is_valid && !scaled;
+  return out;
+}
+
+Solution refine_whole(const Refinement& run, const ProgressRange& range) {
+  WholeCharts whole = whole_charts(run, range.part(0, 0.2));
+  Solution out = place_and_squeeze(run, whole.atlas, whole.keeps_place, range.part(0.2, 1));
+  out.re_embedded = std::move(whole.mended);
   return out;
 }
 

@@ -7,6 +7,14 @@
 
 namespace atlas_refine {
 
+/// The charts of the input, free of flips and crossings, at their wanted densities.
+struct WholeCharts {
+  CutAtlas atlas;            ///< a piece each, seams where one was opened
+  bool keeps_place = false;  ///< they may start where they lie
+  std::vector<int> mended;   ///< charts
+};
+WholeCharts whole_charts(const Refinement& run, const ProgressRange& range);
+
 /// The least intervention that holds the bound, or, where none does, the best that was found. Throws UnmendedCharts.
 Solution refine_whole(const Refinement& run, const ProgressRange& range);
 

@@ -185,6 +185,32 @@ class RectangleReport:
     def packed_pe(self) -> float: ...  # of the rectangles, before the distortion was reduced
     def as_dict(self) -> dict[str, Any]: ...
 
+class TradeOff:
+    """One outcome of the search for cuts: no other has both less boundary and less distortion."""
+
+    @property
+    def boundary_growth(self) -> float: ...
+    @property
+    def distortion(self) -> float: ...  # E_d
+    @property
+    def cuts(self) -> int: ...
+    @property
+    def squeezed(self) -> bool: ...  # to the end; else forecast on coarse charts
+    def as_dict(self) -> dict[str, Any]: ...
+
+class CutReport:
+    """How the search for cuts went."""
+
+    @property
+    def cuts(self) -> int: ...  # from border to border, or to a point inside
+    @property
+    def tried(self) -> int: ...  # sets of cuts whose outcome was forecast
+    @property
+    def trade_off(self) -> list[TradeOff]: ...  # by growth; with several groups empty
+    @property
+    def chosen(self) -> int: ...  # index into it of the result, -1 where that is not one of them
+    def as_dict(self) -> dict[str, Any]: ...
+
 class Repair:
     """What was mended in charts before they were refined."""
 
@@ -239,6 +265,8 @@ class RefineResult:
     @property
     def added_seams(self) -> int: ...  # edges that were whole in the UV map and are torn
     @property
+    def boundary_growth(self) -> float: ...  # what cuts add to the charts' boundary on the surface, as a fraction of it
+    @property
     def new_seams(self) -> NDArray[np.int32]: ...  # (S, 2): vertex pairs that were cut where no face was divided
     @property
     def triangulations(self) -> Triangulations: ...
@@ -256,6 +284,8 @@ class RefineResult:
     def face_charts(self) -> NDArray[np.int32]: ...  # (F,) of the input: index into `charts`
     @property
     def pieces(self) -> list[PieceReport]: ...  # one for each chart of the output; empty unless "cut"
+    @property
+    def cuts(self) -> CutReport | None: ...  # only with "needed" seams, where the input was not good enough as it is
     @property
     def rectangles(self) -> RectangleReport | None: ...  # only where the charts were cut
     @property
@@ -286,12 +316,17 @@ def refine(
     corner_uvs: ArrayLike,
     *,
     pe_bound: float = 0.8,
-    seams: Literal["none", "rectangles"] = "none",
+    seams: Literal["none", "needed", "rectangles"] = "none",
     box_aspect: float = 0.0,
     in_texture: bool = False,
     gap: float | None = None,
     gap_unit: Literal["diagonal", "long_side"] = "diagonal",
     max_distortion: float | None = None,
+    max_boundary_growth: float | None = None,
+    seam_cost: float = 0.1,
+    effort: Literal["fast", "normal", "best"] = "normal",
+    trade_off: bool = False,
+    point: int | None = None,
     relax: bool = False,
     best_effort: bool = False,
     density: Literal["equal", "keep"] = "equal",
@@ -329,12 +364,17 @@ def start(
     corner_uvs: ArrayLike,
     *,
     pe_bound: float = 0.8,
-    seams: Literal["none", "rectangles"] = "none",
+    seams: Literal["none", "needed", "rectangles"] = "none",
     box_aspect: float = 0.0,
     in_texture: bool = False,
     gap: float | None = None,
     gap_unit: Literal["diagonal", "long_side"] = "diagonal",
     max_distortion: float | None = None,
+    max_boundary_growth: float | None = None,
+    seam_cost: float = 0.1,
+    effort: Literal["fast", "normal", "best"] = "normal",
+    trade_off: bool = False,
+    point: int | None = None,
     relax: bool = False,
     best_effort: bool = False,
     density: Literal["equal", "keep"] = "equal",

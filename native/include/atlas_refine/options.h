@@ -12,8 +12,9 @@
 namespace atlas_refine {
 
 /// Where new seams may come from. None: charts bend inside a shrinking box (the squeeze), no seam is added. Rectangles: the
-/// paper's road; charts become axis-aligned and are cut into rectangles along motorcycle trails (sections 3.1 and 3.2).
-enum class Seams { None, Rectangles };
+/// paper's road; charts become axis-aligned and are cut into rectangles along motorcycle trails (sections 3.1 and 3.2). Needed:
+/// charts are squeezed, and cut where their distortion is above max_distortion or, without that, where a cut saves what it costs.
+enum class Seams { None, Needed, Rectangles };
 
 /// The shapes that the objective asks triangles to keep (section 3.4, "Distortion type"): the surface's, or those of the input's
 /// UVs. Only what is minimised changes: Measures::distortion and max_distortion are E_d on the surface either way.
@@ -38,6 +39,9 @@ enum class Collapsed { Leave, Embed };
 
 /// Which turns a chart that is moved without being bent may get.
 enum class Rotate { Any, QuarterTurns, None };
+
+/// How many cuts Seams::Needed tries: the more, the fewer seams, and the more time.
+enum class Effort { Fast, Normal, Best };
 
 /// The number format the caller will store; the certificate is made on values rounded to it.
 enum class Stored { Double, Float32 };
@@ -74,6 +78,16 @@ struct RefineOptions {
   /// warning says why larger ones were given up. An atlas that is left as it is keeps its own.
   std::optional<Gap> gap;
   std::optional<double> max_distortion;  ///< largest E_d allowed, >= 1; above it the call throws, with best_effort too
+  /// With Seams::Needed: how much boundary the cuts may add, as a fraction of that of all charts, on the surface; both sides of a
+  /// cut count.
+  std::optional<double> max_boundary_growth;
+  /// With Seams::Needed and without max_distortion: what boundary growth costs in E_d. A cut is made where it saves more.
+  double seam_cost = 0.1;
+  Effort effort = Effort::Normal;
+  /// With Seams::Needed: look for all outcomes that are worth a choice (CutReport::trade_off, all squeezed to the end), not only
+  /// for the one that is asked for; takes several times as long.
+  bool trade_off = false;
+  std::optional<int> point;  ///< with trade_off: which of them is wanted, whatever the limits; the last where there are fewer
   /// Go on to the least of the objective under the bound where less would already hold it. Rectangles do so anyway, unless
   /// until_input.
   bool relax = false;

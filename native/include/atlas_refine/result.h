@@ -12,9 +12,9 @@
 namespace atlas_refine {
 
 /// What was done. With Seams::None the least of the first three that holds the bound; with `relax` charts are squeezed, unless
-/// the input is at the bound and no less distorted atlas was found. With Seams::Rectangles charts are cut, unless the input is
-/// at the bound (as before), no chart needs a cut (a warning says so), or the cuts came to nothing (a fallback says why): then it
-/// is one of the first three.
+/// the input is at the bound and no less distorted atlas was found. With Seams::Needed the same, or cut. With Seams::Rectangles
+/// charts are cut, unless the input is at the bound (as before), no chart needs a cut (a warning says so), or the cuts came to
+/// nothing (a fallback says why): then it is one of the first three.
 enum class Intervention { Unchanged, Moved, Squeezed, Cut };
 const char* to_string(Intervention intervention);
 
@@ -99,6 +99,22 @@ struct RectangleReport {
   double packed_pe = 0;   ///< of the rectangles, before the distortion was reduced
 };
 
+/// One outcome that the search for cuts came across: no other has both less boundary and less distortion.
+struct TradeOff {
+  double boundary_growth = 0;  ///< as RefineResult::boundary_growth, of the charts that take part
+  double distortion = 0;       ///< E_d
+  int cuts = 0;
+  bool squeezed = false;  ///< to the end; else forecast on coarse charts, mostly within 1e-3
+};
+
+/// How the search for cuts went; only with Seams::Needed, where the input was not good enough as it is.
+struct CutReport {
+  int cuts = 0;                     ///< from border to border, or to a point inside
+  int tried = 0;                    ///< sets of cuts whose outcome was forecast
+  std::vector<TradeOff> trade_off;  ///< by growth; with several groups empty
+  int chosen = -1;                  ///< index into it of the result; -1 where that is not one of them
+};
+
 struct StageTime {
   std::string stage;
   double seconds = 0;
@@ -139,6 +155,8 @@ struct RefineResult {
   Measures after;
   int added_seams =
       0;  ///< edges that were whole in the UV map and are torn: cuts, each part of an edge once, and folds that were parted
+  /// What all cuts add to the boundary of the charts on the surface, where both sides of a seam count, as a fraction of it.
+  double boundary_growth = 0;
   Triangulations triangulations;  ///< of the result; what was positive under a division in the input still is, else a warning
   Gap gap;                        ///< the gap that is guaranteed in the result; the least of several groups
   double price = 0;               ///< lambda: marginal objective for one unit of log PE at the bound; 0 where it does not bind
@@ -148,6 +166,7 @@ struct RefineResult {
   std::vector<int> face_charts;     ///< one per face of the input: index into `charts`
   std::vector<PieceReport> pieces;  ///< one per chart of the output; empty unless Intervention::Cut
   std::optional<RectangleReport> rectangles;
+  std::optional<CutReport> cuts;
   std::vector<GroupReport> groups;     ///< empty without RefineOptions::groups
   std::vector<Repair> repairs;         ///< what was mended and where
   std::vector<std::string> fallbacks;  ///< one line each: what was tried first, and what was done instead

@@ -98,6 +98,17 @@ Boundary make_boundary(const std::vector<Chart>& charts, const std::vector<int>&
   return boundary;
 }
 
+double boundary_on_surface(const std::vector<Chart>& charts) {
+  double sum = 0;
+  for (const Chart& chart : charts) {
+    const auto lengths = surface_lengths(chart);
+    for (const std::vector<int>& loop : chart.boundary_loops) {
+      for (std::size_t k = 0; k < loop.size(); ++k) sum += lengths.at({loop[k], loop[(k + 1) % loop.size()]});
+    }
+  }
+  return sum;
+}
+
 std::vector<PointEdge> near_pairs(const Boundary& boundary, const std::vector<Vec2>& positions,
                                   const std::vector<Vec2>& displacements, double radius) {
   const std::vector<Box> points = swept_points(boundary, positions, displacements);

@@ -34,6 +34,9 @@ std::map<std::pair<int, int>, double> surface_lengths(const Chart& chart);
 /// Flattens the loops of `charts`; vertex k of chart c becomes first_vertex[c] + k.
 Boundary make_boundary(const std::vector<Chart>& charts, const std::vector<int>& first_vertex);
 
+/// Length on the surface of the boundaries of all charts.
+double boundary_on_surface(const std::vector<Chart>& charts);
+
 struct PointEdge {
   int point;  ///< boundary vertex
   int edge;   ///< boundary edge

@@ -20,6 +20,7 @@ constexpr int kManyCharts = 200;
 /// Beyond this many charts even compaction does, and so does looking for each chart's place from the bottom on.
 constexpr int kTooManyToCompact = 1000;
 constexpr int kFinalists = 4;
+constexpr int kBatch = 32;  // greedy starts between two looks at the target
 /// Work of all greedy starts in words looked at: more than atlases of any number of charts need, half a second of tall strips.
 constexpr std::int64_t kGreedyWork = 200'000'000;
 /// Cells along the side: more charts need a finer grid, or most of it is what rounding adds to each; bounds its memory.
@@ -108,6 +109,12 @@ std::vector<Placement> placements_of(const Grid& grid, const GridLayout& layout)
   return placements;
 }
 
+/// Of so many starts, each of which costs `work`.
+int affordable_starts(std::int64_t work, int starts) {
+  const std::int64_t affordable = kGreedyWork / std::max<std::int64_t>(1, work);
+  return static_cast<int>(std::clamp<std::int64_t>(affordable, std::min(kFinalists, starts), starts));
+}
+
 /// The search's state: the layouts so far, and the best placements of those
 /// that were compacted.
 class Search {
@@ -156,20 +163,25 @@ class Search {
     return place_greedily(grid_.charts, random_rule(grid_, options_.box_aspect, Rng(options_.seed, 0, start)), watch_);
   }
 
-  /// The first start tells what the others cost.
+  void add_greedy(int first, int count, int starts) {
+    layouts_.resize(first + count);
+    parallel_ranges(count, threads_, 1, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) {
+        watch_.begin_task(first + k, starts);
+        layouts_[first + k] = greedy_layout(first + k);
+      }
+    });
+  }
+
+  /// The first start tells what the others cost; they end with the batch that reaches the target.
   void start_greedily(int starts) {
     watch_.begin_part(0.05, 0.3);
     watch_.begin_task(0, starts);
     layouts_ = {greedy_layout(0)};
-    const std::int64_t affordable = kGreedyWork / std::max<std::int64_t>(1, layouts_[0].work);
-    starts = static_cast<int>(std::clamp<std::int64_t>(affordable, std::min(kFinalists, starts), starts));
-    layouts_.resize(starts);
-    parallel_ranges(starts - 1, threads_, 1, [&](int begin, int end) {
-      for (int k = begin; k < end; ++k) {
-        watch_.begin_task(k - begin + 1, end - begin + 1);
-        layouts_[k + 1] = greedy_layout(k + 1);
-      }
-    });
+    starts = affordable_starts(layouts_[0].work, starts);
+    const auto reaches = [&](const GridLayout& layout) { return area_of(layout) <= enough_; };
+    for (int first = 1; first < starts && std::none_of(layouts_.begin(), layouts_.end(), reaches); first += kBatch)
+      add_greedy(first, std::min(kBatch, starts - first), starts);
     rank();
   }
 
@@ -202,10 +214,9 @@ class Search {
 
   void compact_best(int count, double from, double to) {
     const std::vector<GridLayout> fresh = not_compacted(count);
-    count = static_cast<int>(fresh.size());
-    std::vector<std::vector<Placement>> compacted(count);
+    std::vector<std::vector<Placement>> compacted(fresh.size());
     watch_.begin_part(from, to);
-    parallel_ranges(count, threads_, 1, [&](int begin, int end) {
+    parallel_ranges(static_cast<int>(fresh.size()), threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         watch_.begin_task(k - begin, end - begin);
         const CompactionOptions options{options_.gap, options_.box_aspect, 2 * grid_.cell, [&] { watch_.poll(0); }};

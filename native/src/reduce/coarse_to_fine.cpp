@@ -87,4 +87,13 @@ Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objec
   return squeeze_directly(starts, objective, options, monitor);
 }
 
+Squeezed forecast_squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
+                          Monitor& monitor) {
+  const auto coarse = coarsen(starts.front().charts, objective, options.freedom);
+  if (!coarse) return squeeze_directly(starts, objective, options, monitor);
+  std::vector<PlacedCharts> coarse_starts;
+  for (const PlacedCharts& start : starts) coarse_starts.push_back(restricted(*coarse, start));
+  return squeeze_directly(coarse_starts, coarse->objective, options, monitor);
+}
+
 }  // namespace atlas_refine

@@ -59,4 +59,8 @@ Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objecti
 Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor);
 
+/// What the squeeze comes to, roughly: the outcome on the coarse charts, where there are such. Its UVs are theirs.
+Squeezed forecast_squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
+                          Monitor& monitor);
+
 }  // namespace atlas_refine

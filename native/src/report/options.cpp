@@ -51,6 +51,10 @@ void check_options(const Atlas& atlas, const RefineOptions& options) {
   require(!options.gap || (options.gap->value >= 0 && options.gap->value <= 0.1), "the gap must lie in [0, 0.1] of the box");
   require(!options.max_distortion || (*options.max_distortion >= 1 && std::isfinite(*options.max_distortion)),
           "the largest distortion must be a finite number of at least 1");
+  require(!options.max_boundary_growth || (*options.max_boundary_growth >= 0 && std::isfinite(*options.max_boundary_growth)),
+          "the largest boundary growth must be a finite number of at least 0");
+  require(options.seam_cost >= 0 && std::isfinite(options.seam_cost), "the seam cost must be a finite number of at least 0");
+  require(!options.point || (*options.point >= 0 && options.trade_off), "the point must be at least 0, of a trade-off");
   const RectangleOptions& rectangles = options.rectangles;
   require(rectangles.sigma > 0 && rectangles.sigma <= 0.1, "sigma must lie between 0 (excluded) and 0.1");
   require(rectangles.candidates >= 1 && rectangles.candidates <= 1000000, "the candidates must number 1 to 1000000");

@@ -65,6 +65,8 @@ RectangleReport sum(RectangleReport a, const RectangleReport& b) {
   return a;
 }
 
+CutReport sum(const CutReport& a, const CutReport& b) { return {.cuts = a.cuts + b.cuts, .tried = a.tried + b.tried}; }
+
 }  // namespace
 
 std::string name_of(int group, const RefineOptions& options) {
@@ -91,6 +93,7 @@ void summarise(const InputAtlas& whole, const Participants& participants, const 
     result.ended = std::max(result.ended, outcome.ended);
     if (outcome.rectangles)
       result.rectangles = result.rectangles ? sum(*result.rectangles, *outcome.rectangles) : *outcome.rectangles;
+    if (outcome.cuts) result.cuts = result.cuts ? sum(*result.cuts, *outcome.cuts) : *outcome.cuts;
     for (PieceReport piece : outcome.pieces) {
       piece.chart = part.charts[piece.chart];
       result.pieces.push_back(piece);

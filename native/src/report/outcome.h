@@ -23,6 +23,7 @@ struct Outcome {
   double price = 0;
   Ended ended = Ended::NotRun;
   std::optional<RectangleReport> rectangles;
+  std::optional<CutReport> cuts;
   std::vector<ChartReport> charts;
   std::vector<PieceReport> pieces;
   CutAtlas atlas;                      ///< empty where unchanged

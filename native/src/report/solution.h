@@ -30,6 +30,7 @@ struct Solution {
   double price = 0;
   std::vector<int> re_embedded;  ///< charts
   std::optional<RectangleReport> rectangles;
+  std::optional<CutReport> cuts;
 };
 
 inline Ended ended_of(ReduceStatus status) {

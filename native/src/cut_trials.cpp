@@ -1,0 +1,157 @@
+// Cuts made one after the other, pieces placed anew, squeezed.
+#include "cut_trials.h"
+
+#include <limits>
+
+#include "geometry/boundary.h"
+#include "geometry/rest_triangle.h"
+#include "input/price_sides.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+#include "place_and_squeeze.h"
+#include "repair/part_touching.h"
+#include "report/locked.h"
+#include "solve/symmetric_dirichlet.h"
+#include "support/parallel.h"
+
+namespace atlas_refine {
+namespace {
+
+constexpr double kLeastPart = 0.02;  // of its chart's surface: no cut leaves less
+
+}  // namespace
+
+CutTrials::CutTrials(const Refinement& run, const ProgressRange& range)
+    : run_(run),
+      freedom_(freedom_of(run.input.set, run.options)),
+      whole_(whole_charts(run, range)),
+      prices_(price_sides(run.input.atlas, run.input.set, run.options)),
+      boundary_(boundary_on_surface(meshes_of(whole_.atlas))) {
+  prices_.resize(whole_.atlas.pieces.size());
+}
+
+double CutTrials::growth_of(const std::vector<ChartCuts>& charts) const {
+  double length = 0;
+  for (const ChartCuts& chart : charts) length += chart.length();
+  return boundary_ > 0 ? 2 * length / boundary_ : 0;
+}
+
+double CutTrials::distortion_of(const Solution& solution) const {
+  const std::vector<Chart> charts = meshes_of(solution.atlas);
+  if (!holds_bound(run_, {.charts = charts, .frame = solution.atlas.frame})) return std::numeric_limits<double>::infinity();
+  return dirichlet_sums(charts).best_energy();
+}
+
+SqueezedTrial CutTrials::without_cuts(const ProgressRange& range) const {
+  SqueezedTrial out{.trial = {}, .solution = place_and_squeeze(run_, whole_.atlas, whole_.keeps_place, range)};
+  out.trial.distortion = distortion_of(out.solution);
+  return out;
+}
+
+std::optional<std::vector<ChartCuts>> CutTrials::made(const std::vector<CutPlace>& cuts) const {
+  std::vector<ChartCuts> out;
+  const std::vector<Piece>& pieces = whole_.atlas.pieces;
+  for (std::size_t c = 0; c < pieces.size(); ++c)
+    out.emplace_back(pieces[c], run_.input.set.charts[c], prices_[c], run_.options.cut);
+  for (const CutPlace& cut : cuts) {
+    if (!out[cut.chart].add(cut.chord)) return std::nullopt;
+  }
+  return out;
+}
+
+bool CutTrials::leaves_slivers(const std::vector<ChartCuts>& charts) const {
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    const double least = kLeastPart * whole_.atlas.pieces[c].mesh.surface.area();
+    if (!charts[c].paths().empty() && charts[c].smallest_part() < least) return true;
+  }
+  return false;
+}
+
+/// Nothing where borders of one piece that touch along a cut cannot be drawn apart.
+std::optional<CutAtlas> CutTrials::atlas_of(const std::vector<ChartCuts>& charts) const {
+  std::vector<SplitMesh> meshes;
+  std::vector<SurfacePath> paths;
+  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+    meshes.push_back(charts[c].mesh());
+    for (const std::vector<int>& path : charts[c].paths()) paths.push_back({c, path});
+  }
+  const std::vector<Chart>& sources = run_.input.set.charts;
+  CutAtlas out = cut_along(divided_atlas(meshes, sources, run_.input.set.points), sources, paths);
+  for (Piece& piece : out.pieces) {
+    if (!bends(freedom_, piece.chart) || charts[piece.chart].paths().empty() || certify_charts({piece.mesh}).valid()) continue;
+    auto parted = part_touching(piece.mesh);
+    if (!parted) return std::nullopt;
+    piece.mesh = std::move(*parted);
+  }
+  return out;
+}
+
+std::optional<SqueezedTrial> CutTrials::squeezed(const std::vector<CutPlace>& cuts, const ProgressRange& range) const {
+  const auto charts = made(cuts);
+  const auto atlas = charts ? atlas_of(*charts) : std::nullopt;
+  if (!atlas) return std::nullopt;
+  Journal& journal = run_.journal;
+  const Journal::Mark before = journal.mark();
+  auto solution = place_and_squeeze_cut(run_, *atlas, range);
+  std::optional<SqueezedTrial> out;
+  if (solution) {
+    out = SqueezedTrial{.trial = {cuts, growth_of(*charts), distortion_of(*solution)}, .solution = std::move(*solution)};
+    out->fallbacks.assign(journal.fallbacks.begin() + static_cast<std::ptrdiff_t>(before.fallbacks), journal.fallbacks.end());
+    out->warnings.assign(journal.warnings.begin() + static_cast<std::ptrdiff_t>(before.warnings), journal.warnings.end());
+  }
+  journal.back_to(before);
+  return out;
+}
+
+std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, double most_growth) const {
+  const auto charts = made(cuts);
+  if (!charts || leaves_slivers(*charts)) return std::nullopt;
+  Trial out{.cuts = cuts, .growth = growth_of(*charts)};
+  if (out.growth > most_growth) return std::nullopt;
+  const auto atlas = atlas_of(*charts);
+  if (!atlas) return std::nullopt;
+  // One thread each: they run side by side.
+  const auto distortion = forecast_distortion({run_.input, run_.options, run_.monitor, run_.journal, 1, run_.asked}, *atlas);
+  if (!distortion) return std::nullopt;
+  out.distortion = *distortion;
+  return out;
+}
+
+std::vector<Trial> CutTrials::forecasts(const std::vector<std::vector<CutPlace>>& sets, double most_growth) const {
+  std::vector<std::optional<Trial>> found(sets.size());
+  parallel_ranges(static_cast<int>(sets.size()), run_.threads, 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) found[k] = forecast(sets[k], most_growth);
+  });
+  std::vector<Trial> out;
+  for (auto& trial : found) {
+    if (trial) out.push_back(std::move(*trial));
+  }
+  return out;
+}
+
+/// What each triangle of the charts has lost in the solution, times its area.
+std::vector<std::vector<double>> CutTrials::losses(const Solution& solution) const {
+  std::vector<std::vector<double>> out;
+  for (const Piece& piece : whole_.atlas.pieces) out.emplace_back(piece.mesh.triangles.size(), 0);
+  const double scale = dirichlet_sums(meshes_of(solution.atlas)).best_scale();
+  for (const Piece& piece : solution.atlas.pieces) {
+    const Chart& mesh = piece.mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto [a, b, c] = mesh.triangles[t];
+      const Mat2 j = scale * jacobian(mesh.surface[t].inverse_edges, mesh.uvs[a], mesh.uvs[b], mesh.uvs[c]);
+      out[piece.chart][piece.sources[t]] += mesh.surface[t].area * (symmetric_dirichlet(j) - 1);
+    }
+  }
+  return out;
+}
+
+std::vector<CutPlace> CutTrials::places(const SqueezedTrial& present, int most) const {
+  const auto charts = made(present.trial.cuts);
+  std::vector<std::vector<double>> lost = losses(present.solution);
+  std::vector<ChartState> states;
+  for (std::size_t c = 0; c < charts->size(); ++c)
+    states.push_back({bends(freedom_, c) ? &(*charts)[c] : nullptr, &whole_.atlas.pieces[c].mesh, std::move(lost[c])});
+  return cut_places(states, most);
+}
+
+}  // namespace atlas_refine

@@ -1,0 +1,62 @@
+// What an atlas with some cuts comes to: forecast on coarse charts, or squeezed to the end.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/solution.h"
+#include "seams/cut_places.h"
+#include "whole.h"
+
+namespace atlas_refine {
+
+/// The outcome of some cuts.
+struct Trial {
+  std::vector<CutPlace> cuts;  ///< in the order in which they are made
+  double growth = 0;           ///< of the boundary on the surface, as a fraction of that of the charts; both sides of a cut count
+  double distortion = 0;       ///< E_d; infinite where the bound does not hold
+};
+
+/// The same squeezed to the end.
+struct SqueezedTrial {
+  Trial trial;
+  Solution solution;
+  std::vector<std::string> fallbacks = {}, warnings = {};  ///< told on the way
+};
+
+class CutTrials {
+ public:
+  /// `run`: without a largest distortion.
+  CutTrials(const Refinement& run, const ProgressRange& range);
+
+  const std::vector<int>& mended() const { return whole_.mended; }
+
+  SqueezedTrial without_cuts(const ProgressRange& range) const;
+  /// Nothing where the cuts cannot be made, or the bound does not hold.
+  std::optional<SqueezedTrial> squeezed(const std::vector<CutPlace>& cuts, const ProgressRange& range) const;
+
+  /// One for each set of cuts that can be made, leaves no slivers, adds at most `most_growth` and holds the bound, in their
+  /// order.
+  std::vector<Trial> forecasts(const std::vector<std::vector<CutPlace>>& sets, double most_growth) const;
+
+  /// Where one more cut may pay; at most `most`.
+  std::vector<CutPlace> places(const SqueezedTrial& present, int most) const;
+
+ private:
+  std::optional<std::vector<ChartCuts>> made(const std::vector<CutPlace>& cuts) const;
+  std::optional<CutAtlas> atlas_of(const std::vector<ChartCuts>& charts) const;
+  std::optional<Trial> forecast(const std::vector<CutPlace>& cuts, double most_growth) const;
+  double growth_of(const std::vector<ChartCuts>& charts) const;
+  bool leaves_slivers(const std::vector<ChartCuts>& charts) const;
+  std::vector<std::vector<double>> losses(const Solution& solution) const;
+  double distortion_of(const Solution& solution) const;
+
+  const Refinement& run_;
+  Freedoms freedom_;
+  WholeCharts whole_;
+  std::vector<SidePrices> prices_;
+  double boundary_;  // of all charts, on the surface
+};
+
+}  // namespace atlas_refine

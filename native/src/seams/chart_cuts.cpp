@@ -1,0 +1,179 @@
+// Walks through triangles, shortest paths along edges, and what they leave.
+#include "seams/chart_cuts.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "geometry/boundary.h"
+#include "geometry/plane.h"
+#include "support/disjoint_sets.h"
+
+namespace atlas_refine {
+namespace {
+
+constexpr double kSnap = 0.15;      // of an edge: a cut that crosses it nearer to an end runs through that
+constexpr double kLeastRun = 0.7;   // of its length a cut runs at least before the border ends it
+constexpr double kCorridor = 0.15;  // of the chord's length: at this distance from it edges count double
+constexpr double kReach = 0.5;      // farther away no path runs
+
+double distance_to(const Chord& chord, const Vec2& at) { return closest_on_segment(at, chord.at[0], chord.at[1]).distance; }
+
+}  // namespace
+
+ChartCuts::ChartCuts(const Piece& piece, const Chart& chart, const SidePrices& prices, Cut cut)
+    : chart_(chart), prices_(prices), cut_(cut), mesh_(mesh_of(piece)), on_border_(boundary_flags(piece.mesh)) {}
+
+bool ChartCuts::add(const Chord& chord) {
+  // Where a cut before it was left out the border may be another.
+  const int count = mesh_.vertex_count();
+  if (chord.ends[0] >= count || chord.ends[1] >= count) return false;
+  if (mesh_.uvs[chord.ends[0]] != chord.at[0] || mesh_.uvs[chord.ends[1]] != chord.at[1] || !on_border_[chord.ends[0]])
+    return false;
+  const SplitMesh before = mesh_;
+  const std::vector<int> path = cut_ == Cut::Split ? straight(chord) : along_edges(chord);
+  on_border_.resize(mesh_.vertex_count(), 0);
+  if (path.size() < 2) {
+    mesh_ = before;
+    on_border_.resize(mesh_.vertex_count());
+    return false;
+  }
+  for (const int v : path) on_border_[v] = 1;
+  paths_.push_back(path);
+  return true;
+}
+
+/// The next vertex on the straight way from one to the target, where a triangle may be divided for it; empty where it leads out.
+std::vector<int> ChartCuts::crossing(int vertex, const Vec2& target, int end) {
+  const Vec2 at = mesh_.uvs[vertex], way = target - at;
+  for (const Side& s : mesh_.fan(vertex)) {
+    const int p = mesh_.to(s), q = mesh_.opposite(s);
+    if (p == end || q == end) return {end};
+    const Vec2 to_p = mesh_.uvs[p] - at, to_q = mesh_.uvs[q] - at;
+    const double right = cross(to_p, way), left = cross(way, to_q);
+    if (right < 0 || left < 0 || right + left <= 0) continue;
+    const double along = right / (right + left);
+    const Vec2 meeting = (1 - along) * mesh_.uvs[p] + along * mesh_.uvs[q];
+    if ((meeting - at).dot(way) <= 0) continue;
+    if (along < kSnap && to_p.dot(way) > 0) return {p};
+    if (along > 1 - kSnap && to_q.dot(way) > 0) return {q};
+    const Side across{s.triangle, (s.side + 1) % 3};
+    if (mesh_.is_boundary(across)) return {};
+    return {mesh_.split(across, along, meeting)};
+  }
+  return {};
+}
+
+std::vector<int> ChartCuts::straight(const Chord& chord) {
+  const int end = chord.ends[1];
+  std::vector<int> path = {chord.ends[0]};
+  const int most = mesh_.triangle_count();
+  while (path.back() != end) {
+    const std::vector<int> next = crossing(path.back(), chord.at[1], end);
+    if (next.empty() || static_cast<int>(path.size()) > most) return {};
+    const Side side = mesh_.find_side(path.back(), next.front());
+    if (side.triangle < 0 || mesh_.is_boundary(side)) return {};
+    path.push_back(next.front());
+    // Snapped to the border: that is as good an end.
+    const bool is_old = next.front() < static_cast<int>(on_border_.size());
+    if (next.front() != end && is_old && on_border_[next.front()]) {
+      const Vec2& at = mesh_.uvs[next.front()];
+      return (at - chord.at[0]).norm() > kLeastRun * chord.length() ? path : std::vector<int>();
+    }
+  }
+  return path;
+}
+
+std::vector<int> ChartCuts::along_edges(const Chord& chord) const {
+  const double width = kCorridor * chord.length(), reach = kReach * chord.length();
+  std::vector<double> cost(mesh_.vertex_count(), std::numeric_limits<double>::infinity());
+  std::vector<int> from(mesh_.vertex_count(), -1);
+  std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue;
+  cost[chord.ends[0]] = 0;
+  queue.emplace(0, chord.ends[0]);
+  while (!queue.empty() && queue.top().second != chord.ends[1]) {
+    const auto [d, v] = queue.top();
+    queue.pop();
+    if (d > cost[v] || (on_border_[v] && v != chord.ends[0])) continue;
+    for (const Side& s : mesh_.fan(v)) {
+      const int w = mesh_.to(s);
+      const double price = prices_.empty() ? 1 : prices_[s.triangle][s.side];
+      const double away = distance_to(chord, mesh_.uvs[w]);
+      if (mesh_.is_boundary(s) || price == kNoSeam || away > reach) continue;
+      const double through = d + price * length_on_surface(s) * (1 + away * away / (width * width));
+      if (through >= cost[w]) continue;
+      cost[w] = through;
+      from[w] = v;
+      queue.emplace(through, w);
+    }
+  }
+  std::vector<int> path;
+  if (from[chord.ends[1]] < 0) return path;
+  for (int v = chord.ends[1]; v >= 0; v = from[v]) path.push_back(v);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+std::vector<Side> ChartCuts::cut_sides() const {
+  std::vector<Side> out;
+  for (const std::vector<int>& path : paths_) {
+    for (std::size_t k = 0; k + 1 < path.size(); ++k) out.push_back(mesh_.find_side(path[k], path[k + 1]));
+  }
+  return out;
+}
+
+Border ChartCuts::border() const {
+  SplitMesh opened = mesh_;
+  const std::vector<int> copies = opened.cut(cut_sides());
+  Border out{.loops = opened.vertex_loops(), .at = {}};
+  for (std::vector<int>& loop : out.loops) {
+    std::vector<Vec2>& at = out.at.emplace_back();
+    for (int& v : loop) {
+      at.push_back(opened.uvs[v]);
+      if (v >= mesh_.vertex_count()) v = copies[v - mesh_.vertex_count()];
+    }
+  }
+  return out;
+}
+
+double ChartCuts::length_on_surface(const Side& side) const {
+  const int source = mesh_.sources[side.triangle];
+  const Triangle& triangle = chart_.triangles[source];
+  const Vec3 way = weights_on(mesh_.supports[mesh_.to(side)], triangle) - weights_on(mesh_.supports[mesh_.from(side)], triangle);
+  return (chart_.surface[source].inverse_edges.inverse() * Vec2(way[1], way[2])).norm();
+}
+
+double ChartCuts::length() const {
+  double sum = 0;
+  for (const Side& s : cut_sides()) sum += length_on_surface(s);
+  return sum;
+}
+
+double ChartCuts::smallest_part() const {
+  std::vector<std::array<char, 3>> is_cut(mesh_.triangle_count(), {0, 0, 0});
+  for (const Side& s : cut_sides()) {
+    const Side twin = mesh_.twin(s);
+    is_cut[s.triangle][s.side] = is_cut[twin.triangle][twin.side] = 1;
+  }
+  DisjointSets parts(mesh_.triangle_count());
+  std::vector<double> area(mesh_.triangle_count(), 0);
+  for (int t = 0; t < mesh_.triangle_count(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      if (!is_cut[t][k] && mesh_.neighbours[t][k] >= 0) parts.unite(t, mesh_.neighbours[t][k]);
+    }
+  }
+  for (int t = 0; t < mesh_.triangle_count(); ++t) {
+    const std::array<Support, 3> corners = {mesh_.supports[mesh_.triangles[t][0]], mesh_.supports[mesh_.triangles[t][1]],
+                                            mesh_.supports[mesh_.triangles[t][2]]};
+    area[parts.find(t)] += rest_of_part(chart_, mesh_.sources[t], corners).area;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (int t = 0; t < mesh_.triangle_count(); ++t) {
+    if (parts.find(t) == t) least = std::min(least, area[t]);
+  }
+  return least;
+}
+
+}  // namespace atlas_refine

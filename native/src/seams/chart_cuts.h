@@ -1,0 +1,47 @@
+// Cuts on one chart, each from border to border or to a point inside, added one after the other.
+#pragma once
+
+#include <vector>
+
+#include "atlas_refine/options.h"
+#include "cut/cut_atlas.h"
+#include "cut/side_prices.h"
+#include "seams/chords.h"
+
+namespace atlas_refine {
+
+class ChartCuts {
+ public:
+  /// `piece`: a whole chart as repaired; `chart`: that of the input, whose surface it has. Both must outlive this.
+  ChartCuts(const Piece& piece, const Chart& chart, const SidePrices& prices, Cut cut);
+
+  /// Cuts near the chord: straight across triangles, which are divided, or along edges of faces. False, and nothing is changed,
+  /// where no way leads there. Ends are numbers of border().
+  bool add(const Chord& chord);
+
+  /// The border that all cuts leave, numbered by the vertices of mesh().
+  Border border() const;
+  /// Divided where cuts cross it, still whole.
+  const SplitMesh& mesh() const { return mesh_; }
+  const std::vector<std::vector<int>>& paths() const { return paths_; }
+  /// Of the cuts, on the surface.
+  double length() const;
+  /// The smallest of the parts that the cuts leave, on the surface.
+  double smallest_part() const;
+
+ private:
+  std::vector<int> straight(const Chord& chord);
+  std::vector<int> along_edges(const Chord& chord) const;
+  std::vector<int> crossing(int vertex, const Vec2& target, int end);
+  double length_on_surface(const Side& side) const;
+  std::vector<Side> cut_sides() const;
+
+  const Chart& chart_;
+  const SidePrices& prices_;
+  Cut cut_;
+  SplitMesh mesh_;
+  std::vector<char> on_border_;  // per vertex of the mesh
+  std::vector<std::vector<int>> paths_;
+};
+
+}  // namespace atlas_refine

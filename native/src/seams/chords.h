@@ -1,0 +1,34 @@
+// Straight ways through a chart between two points of its border: where few seams part much.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "atlas_refine/atlas.h"
+
+namespace atlas_refine {
+
+/// Borders of plane regions: loops of vertices, the region on the left, outer loops and holes.
+struct Border {
+  std::vector<std::vector<int>> loops;  ///< numbers that chords are told by
+  std::vector<std::vector<Vec2>> at;    ///< of each loop's vertices
+};
+
+/// A segment inside a region whose ends are vertices of its border.
+struct Chord {
+  std::array<int, 2> ends;
+  std::array<Vec2, 2> at;
+  double cut_off = 0;  ///< area of the smaller of the two parts that it leaves; 0 where it joins two loops
+
+  double length() const { return (at[1] - at[0]).norm(); }
+};
+
+/// The necks of the regions: chords that are short for what they cut off, at least `least_part`, best first, none near a better
+/// one; at most `most`. Those between two loops count as if they cut off a quarter of the region.
+std::vector<Chord> necks(const Border& border, double least_part, int most);
+
+/// The shortest chords to the border from a point inside that is none of its vertices, each at another side of it; at most
+/// `most`.
+std::vector<Chord> chords_from(const Border& border, int vertex, const Vec2& at, int most);
+
+}  // namespace atlas_refine

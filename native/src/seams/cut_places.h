@@ -1,0 +1,27 @@
+// Where a cut may pay: necks of charts, where distortion is pent up, and points that no chart can lie flat around.
+#pragma once
+
+#include <vector>
+
+#include "seams/chart_cuts.h"
+
+namespace atlas_refine {
+
+/// A cut that may pay.
+struct CutPlace {
+  int chart;
+  Chord chord;
+};
+
+/// What is known of a chart.
+struct ChartState {
+  const ChartCuts* cuts;       ///< those that it has
+  const Chart* chart;          ///< as repaired
+  std::vector<double> energy;  ///< per triangle of it: what it has lost, times its area
+};
+
+/// At most `most`, best first: in turn by how short they are for what they cut off and by how much distortion is near them for
+/// their length, then ways to points of high curvature. Charts of `states` without cuts of their own (nullptr) are left alone.
+std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int most);
+
+}  // namespace atlas_refine

@@ -1,0 +1,185 @@
+// Cuts only where they are needed or pay, by the public measures of the output mesh.
+#include <cmath>
+
+#include "cut_checks.h"
+#include "output_atlas.h"
+#include "refine_checks.h"
+
+namespace atlas_refine {
+namespace {
+
+using testing::output;
+using testing::refusal;
+using testing::same_bits;
+
+RefineOptions needed(double pe_bound = 0.8) {
+  RefineOptions options;
+  options.pe_bound = pe_bound;
+  options.seams = Seams::Needed;
+  return options;
+}
+
+RefineOptions needed_within(double max_distortion) {
+  RefineOptions options = needed();
+  options.max_distortion = max_distortion;
+  return options;
+}
+
+RefineResult refine_soundly(const Atlas& atlas, const RefineOptions& options) {
+  RefineResult result = refine(atlas, options);
+  const Atlas after = output(atlas, result);
+  const Validity validity = validate(after);
+  EXPECT_TRUE(validity.valid()) << validity.problem;
+  const Measures before = measure(atlas, options.box_aspect), m = measure(after, options.box_aspect);
+  EXPECT_GE(m.pe_fixed_aspect, options.pe_bound);
+  EXPECT_NEAR(m.distortion, result.after.distortion, 1e-6);
+  if (options.max_distortion) {
+    EXPECT_LE(m.distortion, *options.max_distortion + 1e-6);
+  }
+  if (options.max_boundary_growth) {
+    EXPECT_LE(result.boundary_growth, *options.max_boundary_growth + 1e-9);
+  }
+  EXPECT_EQ(m.seam_edges > before.seam_edges, result.added_seams > 0);
+  EXPECT_EQ(result.boundary_growth > 0, result.added_seams > 0);
+  EXPECT_EQ(result.intervention == Intervention::Cut, result.added_seams > 0);
+  if (m.chart_count > 1) {
+    EXPECT_GE(testing::gap_in_unit(m, result.gap, options.box_aspect), result.gap.value * (1 - 1e-9));
+  }
+  return result;
+}
+
+// Flat shapes whose UVs are the surface: what is lost is lost for the bound alone.
+Atlas flat_s() { return shapes::mesh(shapes::s_shape(), 0.06, 0); }
+Atlas flat_star() { return shapes::mesh(shapes::star(), 0.06, 0); }
+
+double without_cuts(const Atlas& atlas) {
+  RefineOptions options;
+  return refine(atlas, options).after.distortion;
+}
+
+TEST(Needed, WithinTheLimitNothingIsCut) {
+  const Atlas atlas = flat_s();
+  const RefineResult result = refine_soundly(atlas, needed_within(without_cuts(atlas) + 0.001));
+  EXPECT_EQ(result.intervention, Intervention::Squeezed);
+  EXPECT_EQ(result.added_seams, 0);
+  ASSERT_TRUE(result.cuts.has_value());
+  EXPECT_EQ(result.cuts->cuts, 0);
+}
+
+TEST(Needed, AboveTheLimitAFewCutsKeepIt) {
+  for (const Atlas& atlas : {flat_s(), flat_star()}) {
+    const double whole = without_cuts(atlas);
+    const RefineResult result = refine_soundly(atlas, needed_within(1 + 0.5 * (whole - 1)));
+    EXPECT_GT(result.cuts->cuts, 0);
+    RefineOptions all = needed();
+    all.seams = Seams::Rectangles;
+    EXPECT_LT(result.boundary_growth, refine(atlas, all).boundary_growth);
+  }
+}
+
+TEST(Needed, ALowerLimitNeedsMoreBoundary) {
+  const Atlas atlas = flat_star();
+  const double loss = without_cuts(atlas) - 1;
+  const RefineResult loose = refine_soundly(atlas, needed_within(1 + 0.8 * loss));
+  const RefineResult tight = refine_soundly(atlas, needed_within(1 + 0.2 * loss));
+  EXPECT_LT(loose.boundary_growth, tight.boundary_growth);
+}
+
+TEST(Needed, WithoutALimitCutsAreMadeWhereTheyPay) {
+  const Atlas atlas = flat_s();
+  RefineOptions options = needed();
+  options.seam_cost = 10;
+  EXPECT_EQ(refine_soundly(atlas, options).added_seams, 0);
+  options.seam_cost = 0.001;
+  const RefineResult cheap = refine_soundly(atlas, options);
+  EXPECT_GT(cheap.added_seams, 0);
+  EXPECT_LT(cheap.after.distortion + options.seam_cost * cheap.boundary_growth, without_cuts(atlas));
+}
+
+TEST(Needed, AlongEdgesTheMeshIsKept) {
+  const Atlas atlas = shapes::quad_band(60, 8);
+  RefineOptions options = needed_within(1 + 0.6 * (without_cuts(atlas) - 1));
+  options.cut = Cut::Edges;
+  const RefineResult result = refine_soundly(atlas, options);
+  EXPECT_FALSE(result.cut.has_value());
+  EXPECT_EQ(result.corner_uvs.size(), atlas.corner_uvs.size());
+  EXPECT_GT(result.new_seams.size(), 0u);
+}
+
+TEST(Needed, WhatCannotBeHadTogetherIsNamed) {
+  const Atlas atlas = flat_star();
+  RefineOptions options = needed_within(1.0001);
+  options.max_boundary_growth = 0.05;
+  const RefineError error = refusal(atlas, options);
+  EXPECT_EQ(error.code(), ErrorCode::BoundNotReached);
+  const std::string words = error.what();
+  EXPECT_NE(words.find("boundary growth of 0.05"), std::string::npos) << words;
+  EXPECT_NE(words.find("distortion of 1.0001"), std::string::npos) << words;
+  options.best_effort = true;
+  const RefineResult result = refine(atlas, options);
+  EXPECT_FALSE(result.bound_met);
+  EXPECT_LE(result.boundary_growth, 0.05 + 1e-9);
+  EXPECT_LE(result.after.distortion, without_cuts(atlas) + 1e-6);
+  EXPECT_GE(result.after.pe, 0.8);
+}
+
+TEST(Needed, ChartsThatKeepTheirShapeAreNotCut) {
+  const Atlas atlas = shapes::combine({flat_s(), flat_star()});
+  RefineOptions options = needed();
+  options.seam_cost = 0.01;
+  options.best_effort = true;
+  options.keep_shape.assign(atlas.face_count(), 0);
+  for (int f = 0; f < flat_s().face_count(); ++f) options.keep_shape[f] = 1;
+  const RefineResult result = refine(atlas, options);
+  for (const PieceReport& piece : result.pieces) {
+    if (result.charts[piece.chart].fate == Fate::Kept) {
+      EXPECT_EQ(piece.faces, flat_s().face_count());
+    }
+  }
+}
+
+TEST(Needed, SameBitsOnOneAndTwoThreads) {
+  const Atlas atlas = flat_star();
+  RefineOptions options = needed_within(1 + 0.5 * (without_cuts(atlas) - 1));
+  options.threads = 1;
+  const RefineResult one = refine(atlas, options);
+  options.threads = 2;
+  const RefineResult two = refine(atlas, options);
+  EXPECT_TRUE(same_bits(one.corner_uvs, two.corner_uvs));
+  EXPECT_GT(one.cuts->cuts, 0);
+}
+
+TEST(Needed, TheTradeOffHasEveryChoice) {
+  const Atlas atlas = flat_s();
+  RefineOptions options = needed();
+  options.trade_off = true;
+  options.effort = Effort::Fast;
+  const RefineResult all = refine_soundly(atlas, options);
+  const std::vector<TradeOff>& points = all.cuts->trade_off;
+  ASSERT_GE(points.size(), 2u);
+  EXPECT_EQ(points[0].cuts, 0);
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    EXPECT_GT(points[k].boundary_growth, points[k - 1].boundary_growth);
+    EXPECT_LT(points[k].distortion, points[k - 1].distortion);
+    EXPECT_TRUE(points[k].squeezed);
+  }
+  options.point = 1;
+  const RefineResult second = refine_soundly(atlas, options);
+  EXPECT_EQ(second.cuts->chosen, 1);
+  EXPECT_NEAR(second.after.distortion, points[1].distortion, 1e-9);
+  EXPECT_NEAR(second.boundary_growth, points[1].boundary_growth, 1e-9);
+}
+
+TEST(Needed, OptionsOutOfRangeAreRefused) {
+  const Atlas atlas = flat_s();
+  for (const auto& set : std::vector<void (*)(RefineOptions&)>{
+           [](RefineOptions& o) { o.max_boundary_growth = -0.1; }, [](RefineOptions& o) { o.seam_cost = -1; },
+           [](RefineOptions& o) { o.seam_cost = std::nan(""); }, [](RefineOptions& o) { o.point = 0; }}) {
+    RefineOptions options = needed();
+    set(options);
+    EXPECT_EQ(refusal(atlas, options).code(), ErrorCode::BadOption);
+  }
+}
+
+}  // namespace
+}  // namespace atlas_refine
