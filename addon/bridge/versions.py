@@ -3,6 +3,7 @@
 
 from contextlib import contextmanager
 
+import bpy
 import numpy as np
 
 
@@ -113,3 +114,17 @@ def calc_loop_triangles(mesh):
     """Until 4.0 they are there only once asked for."""
     if hasattr(mesh, "calc_loop_triangles"):
         mesh.calc_loop_triangles()
+
+
+_commands = {}
+
+
+def register_command(name, function):
+    """`blender --command NAME`: the function gets the arguments and returns the exit code."""
+    if hasattr(bpy.utils, "register_cli_command"):  # 4.2 and later
+        _commands[name] = bpy.utils.register_cli_command(name, function)
+
+
+def unregister_command(name):
+    if name in _commands:
+        bpy.utils.unregister_cli_command(_commands.pop(name))
