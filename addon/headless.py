@@ -58,8 +58,8 @@ def main(argv):
                 print("\n".join(dict.fromkeys(preset.name for preset in presets.all_presets())))
                 return 0
             options = _options(arguments)
-            for item in arguments.items[:1]:  # none where there are more shards than files
-                _make_folder(item.output.parent)
+            for folder in {item.output.parent for item in arguments.items if item.output != item.source}:
+                _make_folder(folder)
             codes = [_refine(item, options, arguments, at) for at, item in enumerate(arguments.items, 1)]
             return max((*codes, 0), key=_weight)
         except (UsageError, PresetError) as error:
@@ -131,6 +131,8 @@ def _refine(item, options, arguments, at):
         code = _code(error)
         record.update(status=FAILED, error=_words(error))
         _complain(f"{item.source}: {record['error']}")
+    if "input_sha256" not in record:
+        return code
     record["seconds"] = round(time.monotonic() - began, 3)
     for line in (record["status"], *lines):
         print(f"  {line}", flush=True)

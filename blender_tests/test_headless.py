@@ -155,6 +155,13 @@ class Headless(unittest.TestCase):
         self.assertEqual([name for name in self.names("out") if name.endswith(".blend")], [good.name])
         self.assertEqual(self.record(self.folder / "out/bad.blend")["status"], "failed")
 
+    def test_a_missing_file_leaves_nothing(self):
+        self.assertEqual(self.run_it(self.folder / "no" / "gone.blend", "--in-place")[0], 3)
+        self.assertEqual(self.names(), [])
+
+    def test_more_shards_than_files(self):
+        self.assertEqual(self.run_it(self.make("a.blend"), "-o", self.folder / "out", "--shard", "2/2"), (0, "", ""))
+
     def test_a_bound_out_of_reach(self):
         options = ["--pe-bound", "0.999", "--aspect", "free", "--gap-px", "50", "--texture-size", "1024"]
         source = self.make("a.blend")
