@@ -253,7 +253,7 @@ class Headless(unittest.TestCase):
         self.assertEqual(pathlib.Path(bpy.path.abspath(image.filepath)).resolve(), self.folder / "skin.png")
 
     def test_an_old_compressed_file(self):
-        source = self.make("a.blend")
+        source = self.make("a.blend", compress=False)
         source.write_bytes(gzip.compress(source.read_bytes()))
         self.assertEqual(self.run_it(source, "--in-place")[0], 0)
         self.assertGreaterEqual(self.use_in(source), 0.8)
