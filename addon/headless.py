@@ -232,7 +232,8 @@ def _chosen(arguments):
     elif arguments.objects:
         meshes = [obj for obj in meshes if any(fnmatchcase(obj.name, pattern) for pattern in arguments.objects)]
     if not meshes:
-        raise FileError("no mesh object is meant" if arguments.chosen != "all" else "there is no mesh object")
+        which = " that is selected" if arguments.selected else " of such a name" if arguments.objects else ""
+        raise FileError(f"there is no mesh object{which}")
     left_out = [{"object": obj.name, "message": parts.why_not(obj)} for obj in meshes if parts.why_not(obj)]
     usable = [obj for obj in meshes if not parts.why_not(obj)]
     if not usable:
