@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 NEWEST_GLIBC = (2, 28)
-#: glibc, and GCC's support library, which every system has: its symbols here are from 2001.
+#: glibc, and GCC's support library, which every system has: of that the modules need what GCC 4.2 had.
 OF_THE_SYSTEM = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libgcc_s.so.1", "ld-linux-x86-64.so.2"}
 
 

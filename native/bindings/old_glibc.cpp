@@ -49,6 +49,7 @@ int pthread_join(pthread_t thread, void** result) { return old_pthread_join(thre
 int pthread_detach(pthread_t thread) noexcept { return old_pthread_detach(thread); }
 int pthread_once(pthread_once_t* once, void (*start)()) { return old_pthread_once(once, start); }
 int pthread_key_create(pthread_key_t* key, void (*end)(void*)) noexcept { return old_pthread_key_create(key, end); }
+// NOLINTNEXTLINE(bugprone-reserved-identifier): glibc's name
 int __pthread_key_create(pthread_key_t* key, void (*end)(void*)) noexcept { return old_pthread_key_create(key, end); }
 int pthread_key_delete(pthread_key_t key) noexcept { return old_pthread_key_delete(key); }
 int pthread_setspecific(pthread_key_t key, const void* value) noexcept { return old_pthread_setspecific(key, value); }
