@@ -1,5 +1,5 @@
 // Linked into a portable module: by names of older versions what glibc has in newer ones than 2.28, so that the module loads
-// there too. tools/check_portable.py says what is left.
+// there too. module.map keeps it to the module; tools/check_portable.py says what is left.
 
 #include <pthread.h>
 #include <sys/stat.h>
@@ -65,8 +65,7 @@ unsigned arc4random() noexcept {
 // Since 2.32: whether reference counts may do without atomic operations. They may not.
 char __libc_single_threaded = 0;  // NOLINT(bugprone-reserved-identifier): glibc's name
 
-// Since 2.30, and what std::condition_variable waits by: here by the clock on the wall, as long as there is left by the other
-// one.
+// Since 2.30, for std::condition_variable: here by the clock on the wall, for as long as is left by the other one.
 int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock, const timespec* until) {
   constexpr long kSecond = 1'000'000'000;
   timespec now{}, wall{};
