@@ -25,6 +25,15 @@ def write_uvs(layer, uvs):
         layer.data.foreach_set("uv", uvs.ravel())
 
 
+def copy_active_uv_map(layers, name):
+    """Adds a copy of the active UV map and returns its name, None where there is no room."""
+    count = len(layers)
+    made = layers.new(name=name, do_init=True)
+    if made is not None:
+        return made.name
+    return layers[-1].name if len(layers) > count else None  # 5.2 says nothing in edit mode, but has made it
+
+
 def pinned_corners(mesh, uv_map):
     """(C,) bool in object mode, None where no corner ever was pinned."""
     layer = mesh.uv_layers[uv_map]
