@@ -5,7 +5,14 @@ operators.py and panels.py are thin; core/ knows no bpy; bridge/ holds every acc
 between Blender versions; native/ (added by `./dev package`) is the Python package with the engine.
 """
 
-from . import operators, panels, preferences, settings
+import sys
+
+# Installed anew, this module alone is loaded again: what an earlier version brought must not be found.
+for _name in [name for name in sys.modules if name.startswith(f"{__name__}.")]:
+    del sys.modules[_name]
+    globals().pop(_name.removeprefix(f"{__name__}."), None)
+
+from . import headless, operators, panels, preferences, presets, settings
 
 bl_info = {
     "name": "Atlas Refine",
@@ -17,7 +24,7 @@ bl_info = {
     "category": "UV",
 }
 
-MODULES = (preferences, settings, operators, panels)
+MODULES = (preferences, settings, operators, presets, panels, headless)
 
 
 def register():

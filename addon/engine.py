@@ -6,8 +6,9 @@ import sys
 try:
     from .native import atlas_refine as module
 except ImportError as error:
-    built_for = "this add-on's engine does not load on Python {}.{}".format(*sys.version_info)
-    raise ImportError(f"Atlas Refine: {built_for}: {error}", name=error.name) from error
+    # With the add-on's name Blender takes it as this add-on's own trouble, in a line instead of a traceback.
+    python = "{}.{}".format(*sys.version_info)
+    raise ImportError(f"Atlas Refine: the engine does not load on Python {python}: {error}", name=__package__) from error
 
 AtlasRefineError = module.AtlasRefineError
 start = module.start

@@ -5,13 +5,14 @@ select."""
 import bpy
 from bpy.props import EnumProperty
 
-from . import drawing, engine, tasks
+from . import drawing, engine, presets, tasks
 from .bridge import parts as objects
 from .bridge import problems, selection
 from .bridge.mesh import MeshError, find_uv_map
+from .core.presets import PresetError
 from .core.summary import headline, measured, notes
 from .core.words import counted, phase, plain
-from .properties import other_properties, pe_bound_property, seams_property, sigma_property, to_options
+from .properties import all_properties, to_options
 
 POLL_SECONDS = 0.1
 
@@ -42,14 +43,9 @@ class UV_OT_atlas_refine(bpy.types.Operator):
 
     bl_idname = "uv.atlas_refine"
     bl_label = "Refine Atlas"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
 
-    __annotations__ = {
-        "pe_bound": pe_bound_property(),
-        "seams": seams_property(),
-        "sigma": sigma_property(),
-        **other_properties(),
-    }
+    __annotations__ = {**all_properties(), "preset": presets.preset_property()}
 
     @classmethod
     def poll(cls, context):
@@ -100,6 +96,11 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         self._leave(context)
 
     def _start(self, context, beside_window=False):
+        try:
+            presets.apply_to(self)
+        except PresetError as error:
+            self.report({"ERROR"}, str(error))
+            return None
         run = tasks.Run(context, to_options(self), beside_window)
         if run.atlases:
             return run

@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import drawing, operators, tasks
+from . import drawing, operators, presets, tasks
 from .bridge import versions
 from .core.summary import distortion, faces_after, figures, measured, new_seams, notes, percent, use, what_was_done
 from .core.words import counted, phase
@@ -26,6 +26,9 @@ def _refine_button(layout, settings, **more):
 
 class _Main:
     bl_label = "Atlas Refine"
+
+    def draw_header_preset(self, _context):
+        presets.ATLAS_REFINE_PT_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
         settings = context.scene.atlas_refine

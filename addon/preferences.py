@@ -1,27 +1,55 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: the values that new scenes start with."""
+"""The add-on's preferences: the values that new scenes start with, threads, and where the studio keeps its presets."""
+
+import pathlib
 
 import bpy
+from bpy.props import IntProperty, StringProperty
 
-from .properties import pe_bound_property, seams_property, sigma_property
-
-
-def get():
-    return bpy.context.preferences.addons[__package__].preferences
+from .core.options import Options
+from .properties import PREFERRED
 
 
 class AtlasRefinePreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
-    __annotations__ = {"pe_bound": pe_bound_property(), "seams": seams_property(), "sigma": sigma_property()}
+    __annotations__ = {
+        **{name: make() for name, make in PREFERRED.items()},
+        "threads": IntProperty(
+            name="Threads",
+            description="Processor threads where the Threads of a refinement is 0. 0: all but one, which Blender's window keeps, in "
+            "scripts all. The result is the same",
+            default=0,
+            min=0,
+            max=1024,
+        ),
+        "studio_presets": StringProperty(
+            name="Studio Presets",
+            description="Folder of presets that everybody in the studio has. It is only read",
+            subtype="DIR_PATH",
+            default="",
+        ),
+    }
 
     def draw(self, _context):
         column = self.layout.column()
         column.use_property_split = True
         column.label(text="Defaults for new scenes")
-        column.prop(self, "pe_bound")
-        column.prop(self, "seams")
-        column.prop(self, "sigma")
+        for name in PREFERRED:
+            column.prop(self, name)
+        column.separator()
+        column.prop(self, "threads")
+        column.prop(self, "studio_presets")
+        if self.studio_presets and not pathlib.Path(bpy.path.abspath(self.studio_presets)).is_dir():
+            column.label(text="There is no such folder", icon="ERROR")
+
+
+def value(name):
+    """A preference, or its default where the add-on runs without having been ticked (Blender's --addons)."""
+    addon = bpy.context.preferences.addons.get(__package__)
+    if addon is not None:
+        return getattr(addon.preferences, name)
+    return getattr(Options, name, "")
 
 
 def register():

@@ -51,6 +51,39 @@ def sigma_property(**more):
     )
 
 
+def gap_px_property(**more):
+    return FloatProperty(
+        name="Margin Pixels",
+        description="Smallest distance between two charts and, unless Aspect is Free, of a chart to the texture's border, in pixels",
+        default=Options.gap_px,
+        min=0.0,
+        soft_max=64.0,
+        max=1024.0,
+        **more,
+    )
+
+
+def texture_size_property(**more):
+    return IntProperty(
+        name="Texture Size",
+        description="Pixels of the texture's longer side, where Aspect does not take them from an image",
+        default=Options.texture_size,
+        min=16,
+        max=65536,
+        **more,
+    )
+
+
+#: The options that have a preference: what new scenes start with.
+PREFERRED = {
+    "pe_bound": pe_bound_property,
+    "seams": seams_property,
+    "gap_px": gap_px_property,
+    "texture_size": texture_size_property,
+    "sigma": sigma_property,
+}
+
+
 def _choice(name, label, description, items):
     return EnumProperty(name=label, description=description, items=items, default=getattr(Options, name))
 
@@ -87,21 +120,6 @@ def _box_properties():
                 ("PIXELS", "Pixels", "So many pixels of the texture, to its border as well unless Aspect is Free: always kept"),
                 ("AUTO", "Automatic", "0.25 % of the box's diagonal, less where charts jam or bend too much; none to the border"),
             ],
-        ),
-        "gap_px": FloatProperty(
-            name="Margin Pixels",
-            description="Smallest distance between two charts and, unless Aspect is Free, of a chart to the texture's border, in pixels",
-            default=Options.gap_px,
-            min=0.0,
-            soft_max=64.0,
-            max=1024.0,
-        ),
-        "texture_size": IntProperty(
-            name="Texture Size",
-            description="Pixels of the texture's longer side, where Aspect does not take them from an image",
-            default=Options.texture_size,
-            min=16,
-            max=65536,
         ),
         "atlases": _choice(
             "atlases",
@@ -223,7 +241,7 @@ def _advanced_properties():
         ),
         "threads": IntProperty(
             name="Threads",
-            description="Processor threads; 0: all but one, which Blender's window keeps, in scripts all. The result is the same",
+            description="Processor threads; 0: what the preferences say. The result is the same",
             default=Options.threads,
             min=0,
             max=1024,
@@ -235,6 +253,10 @@ def other_properties():
     """The options that have no preference."""
     uv_map = _name("UV Map", "Name or index of the UV map; empty: the active one")
     return {**_box_properties(), **_chart_properties(), "uv_map": uv_map, **_advanced_properties()}
+
+
+def all_properties():
+    return {**{name: make() for name, make in PREFERRED.items()}, **other_properties()}
 
 
 #: In the order of Options.

@@ -5,7 +5,7 @@ import bpy
 from bpy.props import PointerProperty
 
 from . import preferences
-from .properties import SEAMS, other_properties, pe_bound_property, seams_property, sigma_property
+from .properties import PREFERRED, SEAMS, other_properties
 
 
 def _seams_number(identifier):
@@ -13,22 +13,25 @@ def _seams_number(identifier):
     return next(number for name, _, _, number in SEAMS if name == identifier)
 
 
-def _follow_preference(name, stored=lambda value: value):
+def _follow_preference(name):
     """A scene's value is the preference's until somebody sets it there: preferences are the defaults of new scenes."""
     key = f"own_{name}"
-    return {
-        "get": lambda scene_settings: scene_settings.get(key, stored(getattr(preferences.get(), name))),
-        "set": lambda scene_settings, value: scene_settings.__setitem__(key, value),
-    }
+
+    def get(scene_settings):
+        value = scene_settings.get(key)
+        if value is not None:
+            return value
+        value = preferences.value(name)
+        return _seams_number(value) if name == "seams" else value
+
+    return {"get": get, "set": lambda scene_settings, value: scene_settings.__setitem__(key, value)}
 
 
 class AtlasRefineSettings(bpy.types.PropertyGroup):
     """The panel's options, kept in the scene."""
 
     __annotations__ = {
-        "pe_bound": pe_bound_property(**_follow_preference("pe_bound")),
-        "seams": seams_property(**_follow_preference("seams", _seams_number)),
-        "sigma": sigma_property(**_follow_preference("sigma")),
+        **{name: make(**_follow_preference(name)) for name, make in PREFERRED.items()},
         **other_properties(),
     }
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from . import engine
+from . import engine, preferences
 from .bridge import cuts
 from .bridge import mesh as bridge
 from .bridge import parts as objects
@@ -151,7 +151,9 @@ class Run:
         self.problems = []  # (object's name, why nothing was done with it)
         self.atlases = read_atlases(context, options, self.problems)
         # One core is left to the window.
-        self._threads = options.threads or (max(1, (os.cpu_count() or 1) - 1) if beside_window else 0)
+        automatic = max(1, (os.cpu_count() or 1) - 1) if beside_window else 0
+        self._threads = options.threads or preferences.value("threads") or automatic
+        self.errors = []  # those of the engine and of writing, after finish()
         self.cancelled = False
         self._at = 0
         if self.atlases:
@@ -199,6 +201,7 @@ class Run:
                 out.append(atlas.write(atlas.job.result()))
             except FAILURES as error:
                 self.problems.append((atlas.title, str(error)))
+                self.errors.append(error)
         if out:
             show(out)
         return out

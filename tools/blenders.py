@@ -1,6 +1,6 @@
 """The Blenders that tests and demo run in: Debian's program, and the official builds as the bpy module of PyPI.
 
-usage: blenders.py     prints the path of a Python 3.13, which the newest of them needs, and fails where there is none
+usage: blenders.py VERSION     prints the path of that Python, as 3.13, and fails where there is none
 """
 
 import pathlib
@@ -68,9 +68,9 @@ def debian():
     return [Program(text.splitlines()[0], "/usr/bin/blender")]
 
 
-def python_3_13():
-    """Path of a Python 3.13, "" where there is none; Debian 12 has none of its own."""
-    candidates = [shutil.which("python3.13"), *pathlib.Path.home().glob(".pyenv/versions/3.13.*/bin/python3.13")]
+def python(version):
+    """Path of a Python that is not Debian's own, "" where there is none."""
+    candidates = [shutil.which(f"python{version}"), *pathlib.Path.home().glob(f".pyenv/versions/{version}.*/bin/python{version}")]
     for candidate in filter(None, candidates):
         if subprocess.run([candidate, "-c", "import venv"], capture_output=True, check=False).returncode == 0:
             return str(candidate)
@@ -81,11 +81,13 @@ def official(every):
     modules = [Module(version) for version in EVERY_DAY]
     if every:
         modules += [Module(version) for version in OTHERS]
-        modules += [Module(version, base_python=python_3_13()) for version in ON_PYTHON_3_13]
+        modules += [Module(version, base_python=python("3.13")) for version in ON_PYTHON_3_13]
     return modules
 
 
 if __name__ == "__main__":
-    found = python_3_13()
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    found = python(sys.argv[1])
     print(found)
     sys.exit(not found)

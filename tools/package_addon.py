@@ -1,10 +1,11 @@
-"""Packs addon/ and the built Python package into one zip: an extension for Blender 4.2+, a legacy add-on before.
+"""Packs addon/ and the built Python package into one zip: an extension for Blender 4.2+, a legacy add-on for 3.4 to 4.1.
 
 usage: package_addon.py OUT_DIR BUILD_DIR...
 
 Several build folders, each for another Python, make one zip that runs on all of them.
 """
 
+import hashlib
 import pathlib
 import re
 import sys
@@ -13,6 +14,8 @@ import zipfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 #: The zip's one folder. Not "atlas_refine": a legacy add-on's folder is a top level module and would hide the Python package.
 FOLDER = "atlas_refine_addon"
+#: The first official Blender that no longer runs a module of this Python; those before 4.2 read no manifest.
+NOT_SUPPORTED_FROM = {"cpython-311": "5.1.0", "cpython-313": "5.3.0"}
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the same files make the same zip
 
 
@@ -40,19 +43,47 @@ def built_packages(build_dirs):
     return native
 
 
+def write_folder(archive):
+    """An entry of its own, by which Blender 3.4 to 4.1 takes the old version away before it unpacks this one: a library that is loaded
+    must not be written over."""
+    info = zipfile.ZipInfo(f"{FOLDER}/", EPOCH)
+    info.external_attr = 0o40755 << 16 | 0x10
+    archive.writestr(info, b"")
+
+
+def engine_folder(native):
+    """Named by what it holds: Python and the loader know libraries by their path, and would give a newer version the one they have."""
+    digest = hashlib.sha256()
+    for name, path in sorted(native.items()):
+        digest.update(name.as_posix().encode() + path.read_bytes())
+    return f"atlas_refine_{digest.hexdigest()[:12]}"
+
+
+def manifest(native):
+    """(text, version) with the last Blender that one of the modules runs on."""
+    text = (ROOT / "addon" / "blender_manifest.toml").read_text()
+    limits = [limit for name in native for python, limit in NOT_SUPPORTED_FROM.items() if python in name.name]
+    if not limits:
+        sys.exit(f"no module for the Python of Blender 4.2 or later; there are {', '.join(NOT_SUPPORTED_FROM)}")
+    text = re.sub("(?m)^(blender_version_min = .*)$", rf'\1\nblender_version_max = "{max(limits)}"', text)
+    return text, re.search(r'(?m)^version = "(.+)"$', text).group(1)
+
+
 def main(out_dir, *build_dirs):
     native = built_packages(build_dirs)
-    manifest = (ROOT / "addon" / "blender_manifest.toml").read_text()
-    version = re.search(r'^version = "(.+)"$', manifest, re.MULTILINE).group(1)
+    manifest_text, version = manifest(native)
     out = pathlib.Path(out_dir) / f"atlas_refine-{version}.zip"
     out.parent.mkdir(parents=True, exist_ok=True)
+    folder = engine_folder(native)
     with zipfile.ZipFile(out, "w") as archive:
-        for name, path in files(ROOT / "addon", ["*.py", "*.toml"]):
+        write_folder(archive)
+        for name, path in files(ROOT / "addon", ["*.py"]):
             write(archive, name.as_posix(), path.read_bytes())
+        write(archive, "blender_manifest.toml", manifest_text.encode())
         write(archive, "LICENSE", (ROOT / "LICENSE").read_bytes())
-        write(archive, "native/__init__.py", b"")
+        write(archive, "native/__init__.py", f"from . import {folder} as atlas_refine\n".encode())
         for name, path in sorted(native.items()):
-            write(archive, f"native/atlas_refine/{name.as_posix()}", path.read_bytes())
+            write(archive, f"native/{folder}/{name.as_posix()}", path.read_bytes())
     print(out)
 
 

@@ -74,11 +74,10 @@ def add_copy(obj, uv_map):
     layers = obj.data.uv_layers
     before = layers.active.name
     layers.active = layers[uv_map]
-    copy = layers.new(name=f"{uv_map} refined", do_init=True)
-    if copy is None:
+    name = versions.copy_active_uv_map(layers, f"{uv_map} refined")
+    if name is None:
         layers.active = layers[before]
         raise MeshError("the mesh has no room for another UV map")
-    name = copy.name
     layers.active = layers[name]
     return name, before
 

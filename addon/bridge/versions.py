@@ -3,6 +3,7 @@
 
 from contextlib import contextmanager
 
+import bpy
 import numpy as np
 
 
@@ -22,6 +23,15 @@ def write_uvs(layer, uvs):
         layer.uv.foreach_set("vector", uvs.ravel())
     else:
         layer.data.foreach_set("uv", uvs.ravel())
+
+
+def copy_active_uv_map(layers, name):
+    """Adds a copy of the active UV map and returns its name, None where there is no room."""
+    count = len(layers)
+    made = layers.new(name=name, do_init=True)
+    if made is not None:
+        return made.name
+    return layers[-1].name if len(layers) > count else None  # 5.2 says nothing in edit mode, but has made it
 
 
 def pinned_corners(mesh, uv_map):
@@ -113,3 +123,17 @@ def calc_loop_triangles(mesh):
     """Until 4.0 they are there only once asked for."""
     if hasattr(mesh, "calc_loop_triangles"):
         mesh.calc_loop_triangles()
+
+
+_commands = {}
+
+
+def register_command(name, function):
+    """`blender --command NAME`: the function gets the arguments and returns the exit code."""
+    if hasattr(bpy.utils, "register_cli_command"):  # 4.2 and later
+        _commands[name] = bpy.utils.register_cli_command(name, function)
+
+
+def unregister_command(name):
+    if name in _commands:
+        bpy.utils.unregister_cli_command(_commands.pop(name))

@@ -197,9 +197,20 @@ void define(py::module_& module, const char* name, Function function, const std:
              doc.c_str());
 }
 
+/// NumPy 2 lays its types out in another way: pybind11 before 2.12 would read and write arrays wrongly, without a word.
+void check_numpy() {
+#if PYBIND11_VERSION_HEX < 0x020C0000
+  const auto version = py::module_::import("numpy").attr("__version__").cast<std::string>();
+  if (version[0] != '1' || version[1] != '.') {
+    throw py::import_error("built with a pybind11 that knows NumPy 1 alone, and this is NumPy " + version);
+  }
+#endif
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_atlas_refine, module) {
+  check_numpy();
   py::options options;
   options.disable_function_signatures();  // the type stub has the readable ones
   module.doc() = "Atlas Refine: brings a UV atlas to a packing efficiency bound.";
