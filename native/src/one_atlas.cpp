@@ -23,11 +23,22 @@ bool within_limit(const RefineOptions& options, double distortion) {
   return !options.max_distortion || distortion <= *options.max_distortion * (1 + 1e-9);
 }
 
+/// The UVs are as large as is asked, if anything is.
+bool has_density(const InputAtlas& input, const RefineOptions& options) {
+  constexpr double kRounding = 1e-5;  // of UVs in single precision
+  if (options.uv_density == 0) return true;
+  double surface = 0;
+  for (const Chart& chart : input.set.charts) surface += chart.surface.area();
+  const double density = std::sqrt(uv_area(input.set.charts) / surface);
+  return std::abs(density / options.uv_density - 1) < kRounding;
+}
+
 /// The input is valid and at the bound; a gap counts only where one was asked for. `within`: options for the box within the
 /// border.
 bool holds_already(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options, const RefineOptions& within) {
   const Measures& before = input.measures;
   if (before.pe_fixed_aspect < options.pe_bound || !within_limit(options, before.distortion)) return false;
+  if (!has_density(input, options)) return false;
   if (!validate_split(input.set, freedom).valid()) return false;
   const bool framed = is_in_texture(freedom, options);
   const double border = border_of(options), slack = border > 0 ? 2 * kBorderSpare : 0;
@@ -61,6 +72,7 @@ struct CertifiedSolution {
 
 CertifiedSolution certified(const Refinement& run, Solution solution, const ProgressRange& range) {
   run.journal.begin_stage("certify", range.part(0.96, 0.98));
+  if (run.monitor.finishing()) solution.ended = Ended::Stopped;
   restore_shapes(run.input.set.charts, freedom_of(run.input.set, run.options), solution.atlas);
   // Of the whole texture, where the gap was that of the box within its border.
   if (border_of(run.asked) > 0) solution.gap = *run.asked.gap;
@@ -81,6 +93,7 @@ std::optional<double> distortion_of_whole(const Refinement& run, double most) {
 /// Where the charts would have been better off without cuts at the same bound, the warnings say so.
 void compare_with_whole(const Refinement& run, const CertifiedSolution& cut, const ProgressRange& range) {
   constexpr double kWorthTelling = 1e-4;  // of E_d
+  if (run.monitor.finishing()) return;
   run.journal.begin_stage("compare", range.part(0.98, 1));
   const double own = cut.atlas.after.distortion;
   const auto whole = distortion_of_whole(run, own - kWorthTelling);
@@ -154,7 +167,8 @@ Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, Certif
               .pieces = std::move(certified.atlas.pieces)};
   const std::string missed = shortfall(input, options, out.after);
   out.bound_met = missed.empty();
-  if (!out.bound_met && !(options.best_effort && within_limit(options, out.after.distortion)))
+  const bool takes_less = options.best_effort || out.ended == Ended::Stopped;
+  if (!out.bound_met && !(takes_less && within_limit(options, out.after.distortion)))
     throw RefineError(ErrorCode::BoundNotReached, "squeeze", missed);
   for (int c : solution.re_embedded) out.charts[c].re_embedded = true;
   out.atlas = std::move(solution.atlas);
@@ -184,8 +198,25 @@ void warn_of_density(const InputAtlas& input, const RefineOptions& options, cons
 void warn_of_early_end(const Solution& solution, Journal& journal) {
   const char* why = solution.ended == Ended::Stalled           ? "stalled"
                     : solution.ended == Ended::OutOfIterations ? "ran out of iterations"
+                    : solution.ended == Ended::Stopped         ? "was stopped"
                                                                : nullptr;
   if (why) journal.warnings.push_back(std::string("the optimisation ") + why + ": the distortion may not be at its least");
+}
+
+/// True where an atlas that was stopped at is worth more than the input. PE of an input whose charts overlap says nothing.
+bool better_than_input(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options, const Measures& after) {
+  if (!within_limit(options, after.distortion)) return false;
+  return after.pe_fixed_aspect >= options.pe_bound || after.pe_fixed_aspect > input.measures.pe_fixed_aspect ||
+         !validate_split(input.set, freedom).valid();
+}
+
+/// Stopped before anything better than the input was found.
+Outcome stopped(const InputAtlas& input, const RefineOptions& options, bool holds, Journal& journal) {
+  const std::string why = "stopped before a better atlas was found";
+  journal.warnings.push_back(why + ": it is left as it is");
+  Outcome out = holds ? unchanged(input, options) : left_as_it_is(input, options, why);
+  out.ended = Ended::Stopped;
+  return out;
 }
 
 /// There is nothing to move.
@@ -226,9 +257,15 @@ Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const 
   const bool holds = holds_already(input, freedom, options, within);
   if (holds && !options.relax) return unchanged(input, options);
   if (all_fixed(freedom)) return all_locked(input, options, holds);
+  if (monitor.finishing()) return stopped(input, options, holds, journal);
 
   const Refinement run{input, within, monitor, journal, resolve_threads(options.threads), options};
+  const Journal::Mark before = journal.mark();
   CertifiedSolution result = solve(run, range);
+  if (result.solution.ended == Ended::Stopped && !better_than_input(input, freedom, options, result.atlas.after)) {
+    journal.back_to(before);
+    return stopped(input, options, holds, journal);
+  }
   if (holds && result.atlas.after.distortion >= input.measures.distortion) return unchanged(input, options);
   journal.show(to_string(result.solution.intervention), result.atlas.stored);
   warn_of_early_end(result.solution, journal);

@@ -51,6 +51,9 @@ void check_options(const Atlas& atlas, const RefineOptions& options) {
   require(!options.gap || (options.gap->value >= 0 && options.gap->value <= 0.1), "the gap must lie in [0, 0.1] of the box");
   require(!options.max_distortion || (*options.max_distortion >= 1 && std::isfinite(*options.max_distortion)),
           "the largest distortion must be a finite number of at least 1");
+  require(options.uv_density >= 0 && std::isfinite(options.uv_density), "the UV density must be a finite number of at least 0");
+  require(options.uv_density == 0 || (options.box_aspect == 0 && !options.in_texture && options.locked.empty()),
+          "a UV density needs a free box: a texture that is filled has the one that comes of it");
   const RectangleOptions& rectangles = options.rectangles;
   require(rectangles.sigma > 0 && rectangles.sigma <= 0.1, "sigma must lie between 0 (excluded) and 0.1");
   require(rectangles.candidates >= 1 && rectangles.candidates <= 1000000, "the candidates must number 1 to 1000000");
