@@ -5,7 +5,7 @@ operators.py and panels.py are thin; core/ knows no bpy; bridge/ holds every acc
 between Blender versions; native/ (added by `./dev package`) is the Python package with the engine.
 """
 
-from . import operators, panels, preferences, settings
+from . import operators, overlay_settings, panels, preferences, settings
 
 bl_info = {
     "name": "Atlas Refine",
@@ -17,7 +17,7 @@ bl_info = {
     "category": "UV",
 }
 
-MODULES = (preferences, settings, operators, panels)
+MODULES = (preferences, settings, operators, overlay_settings, panels)
 
 
 def register():

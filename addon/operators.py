@@ -27,7 +27,7 @@ def poll_objects(cls, context):
         cls.poll_message_set(f"{reasons[0][0]}: {reasons[0][1]}")
         return False
     if tasks.running is not None:
-        cls.poll_message_set("A refinement is running; Esc stops it")
+        cls.poll_message_set("A refinement is running; Esc cancels it")
         return False
     return True
 
@@ -87,6 +87,9 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         if event.type == "ESC" and event.value == "PRESS":
             self._run.cancel()
             return {"RUNNING_MODAL"}
+        if event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS" and drawing.is_over_uv_or_3d_view(context, event):
+            self._run.keep_best()
+            return {"RUNNING_MODAL"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         if not self._run.done:
@@ -123,7 +126,8 @@ class UV_OT_atlas_refine(bpy.types.Operator):
 
     def _show_progress(self, context):
         progress, fraction = self._run.progress
-        text = f"Refining: {phase(progress.stage)} {100 * fraction:.0f} % (Esc stops)"
+        keys = "stopping" if self._run.finishing else "Enter: stop and keep the best, Esc: cancel"
+        text = f"Refining: {phase(progress.stage)} {100 * fraction:.0f} % ({keys})"
         if text != self._shown:  # each redraw costs the window time
             self._shown = text
             context.workspace.status_text_set(text)
@@ -135,6 +139,22 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         if context.workspace is not None:
             context.workspace.status_text_set(None)
         drawing.redraw_panels(context)
+
+
+class UV_OT_atlas_refine_keep_best(bpy.types.Operator):
+    """End the refinement now with the best valid UV map that it has found; where none is better than before, nothing is changed"""
+
+    bl_idname = "uv.atlas_refine_keep_best"
+    bl_label = "Stop and Keep Best"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, _context):
+        return tasks.running is not None and not tasks.running.finishing
+
+    def execute(self, _context):
+        tasks.running.keep_best()
+        return {"FINISHED"}
 
 
 class UV_OT_atlas_refine_measure(bpy.types.Operator):
@@ -215,7 +235,7 @@ class UV_OT_atlas_refine_select_problems(bpy.types.Operator):
         self.report({"INFO"}, f"{obj.name}: {', '.join(words) or 'no problems'}")
 
 
-CLASSES = (UV_OT_atlas_refine, UV_OT_atlas_refine_measure, UV_OT_atlas_refine_select_problems)
+CLASSES = (UV_OT_atlas_refine, UV_OT_atlas_refine_keep_best, UV_OT_atlas_refine_measure, UV_OT_atlas_refine_select_problems)
 
 
 def register():

@@ -3,7 +3,7 @@
 
 import bpy
 
-from .properties import pe_bound_property, seams_property, sigma_property
+from .properties import overlay_properties, pe_bound_property, seams_property, sigma_property
 
 
 def get():
@@ -13,7 +13,12 @@ def get():
 class AtlasRefinePreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
-    __annotations__ = {"pe_bound": pe_bound_property(), "seams": seams_property(), "sigma": sigma_property()}
+    __annotations__ = {
+        "pe_bound": pe_bound_property(),
+        "seams": seams_property(),
+        "sigma": sigma_property(),
+        **overlay_properties(),
+    }
 
     def draw(self, _context):
         column = self.layout.column()
@@ -22,6 +27,9 @@ class AtlasRefinePreferences(bpy.types.AddonPreferences):
         column.prop(self, "pe_bound")
         column.prop(self, "seams")
         column.prop(self, "sigma")
+        column.label(text="Overlay")
+        for name in overlay_properties():
+            column.prop(self, name)
 
 
 def register():

@@ -3,6 +3,7 @@
 
 from contextlib import contextmanager
 
+import gpu
 import numpy as np
 
 
@@ -113,3 +114,11 @@ def calc_loop_triangles(mesh):
     """Until 4.0 they are there only once asked for."""
     if hasattr(mesh, "calc_loop_triangles"):
         mesh.calc_loop_triangles()
+
+
+def shader(name):
+    """A built-in shader for points in space, by its name since 4.0."""
+    try:
+        return gpu.shader.from_builtin(name)
+    except ValueError:  # before 4.0
+        return gpu.shader.from_builtin(f"3D_{name}")
