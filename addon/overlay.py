@@ -16,7 +16,7 @@ from .bridge import parts as objects
 from .bridge import versions
 from .bridge.texture import find_texture
 from .core.overlay import Look, picture_of
-from .drawing import redraw_views
+from .drawing import redraw_panels, redraw_views
 from .properties import to_options
 
 #: While a mesh is being changed it is drawn anew no more often than takes this part of the time.
@@ -84,6 +84,7 @@ def show(layer, on):
     if not any(shown.values()):
         _remove()
     redraw_views()
+    redraw_panels(bpy.context)
 
 
 def _remove():

@@ -35,7 +35,7 @@ class _Main:
             progress, fraction = tasks.running.progress
             versions.progress_bar(self.layout, fraction, phase(progress.stage).capitalize())
             self.layout.operator(operators.UV_OT_atlas_refine_keep_best.bl_idname, icon="CHECKMARK")
-            self.layout.label(text="Esc cancels, nothing is changed then")
+            self.layout.label(text="Enter does so too, Esc cancels")
         else:
             row = self.layout.row()
             row.scale_y = 1.4

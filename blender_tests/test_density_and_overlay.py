@@ -45,7 +45,7 @@ class Density(unittest.TestCase):
         found = self.refined(obj, texel_density=1000.0, texture_size=1024)
         self.assertAlmostEqual(found.after, pixels_per_metre(obj, 1024), delta=1e-2)
         lines = list(module("core.density").density_lines(found))
-        needed = int(lines[1].split(" px:")[0].split()[-1])
+        needed = int(lines[2].split(" px:")[0].split()[-1])
         self.assertAlmostEqual(needed / 1024, 1000.0 / found.after, delta=2e-3)
 
     def test_measure_tells_it_and_changes_nothing(self):

@@ -396,6 +396,16 @@ TEST(Refine, StoppedOnItsWayItKeepsTheBestAtlas) {
   EXPECT_TRUE(validate(after).valid());
 }
 
+// What a large atlas covers of the texture that it reaches beyond says nothing.
+TEST(Refine, StoppedOnItsWayItIsBetterThanAnInputBesideTheTexture) {
+  Atlas atlas = shapes::mesh(shapes::spiral(3), 0.01);
+  for (Vec2& uv : atlas.corner_uvs) uv = 1000 * uv;
+  const auto on_its_way = [](const Progress& progress) { return progress.stage == "squeeze" && progress.pe > 0; };
+  const RefineResult result = stopped_when(atlas, {.pe_bound = 0.97, .in_texture = true}, on_its_way);
+  EXPECT_EQ(result.ended, Ended::Stopped);
+  EXPECT_EQ(result.intervention, Intervention::Squeezed);
+}
+
 TEST(Refine, StoppedAtOnceItKeepsTheInputOrWhatIsBetter) {
   const auto at_once = [](const Progress&) { return true; };
   for (const Seams seams : {Seams::None, Seams::Rectangles}) {
@@ -404,7 +414,9 @@ TEST(Refine, StoppedAtOnceItKeepsTheInputOrWhatIsBetter) {
     EXPECT_EQ(result.ended, Ended::Stopped);
     EXPECT_FALSE(result.warnings.empty());
     EXPECT_GE(result.after.pe, result.before.pe);
-    if (result.intervention == Intervention::Unchanged) EXPECT_EQ(result.corner_uvs, atlas.corner_uvs);
+    if (result.intervention == Intervention::Unchanged) {
+      EXPECT_EQ(result.corner_uvs, atlas.corner_uvs);
+    }
   }
 }
 

@@ -43,20 +43,18 @@ def pixels_per_metre(area_in_uv, size, area, metres):
 
 
 def density_lines(density):
-    """What the panel says, a line each."""
-    size = f"{density.size[0]} x {density.size[1]}"
+    """What the panel says, in lines that a narrow sidebar has room for."""
     change = "" if density.after is None else f" -> {density.after:.4g}"
-    yield f"Texel density {density.before:.4g}{change} px/m at {size}"
+    yield f"Texel density {density.before:.4g}{change} px/m"
+    yield f"of a texture of {density.size[0]} x {density.size[1]}"
     if density.wanted == 0 or density.now == 0:
         return
     if density.is_free and density.after is not None:
         longest, has = math.ceil(max(density.box_px) - 1e-3), max(density.size)
     else:
         longest, has = math.ceil(max(density.size) * density.wanted / density.now - 1e-3), max(density.size)
-    if longest <= has:
-        yield f"{density.wanted:.4g} px/m fit: {longest} px are enough"
-    else:
-        yield f"{density.wanted:.4g} px/m need a texture of {longest} px: {_power_of_two(longest)}"
+    enough = "it has them" if longest <= has else f"take {_power_of_two(longest)}"
+    yield f"{density.wanted:.4g} px/m need {longest} px: {enough}"
 
 
 def _power_of_two(pixels):

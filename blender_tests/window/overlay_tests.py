@@ -99,7 +99,7 @@ def test_overlay_stretch_and_borders_in_the_uv_editor():
     yield 0.5
     heat = seen("overlay-stretch", uv_editor())
     assert differs(plain, heat) > 0.002
-    assert like(heat, preferences().heat_low) > 0.0001
+    assert like(heat, preferences().heat_high) > 0.0001
     show("gap")
     yield 0.5
     near = seen("overlay-gap", uv_editor())
@@ -173,7 +173,7 @@ def test_overlay_in_both_editors_and_pictures_of_the_manual():
     yield 0.5
 
 
-def test_keep_best_by_the_key():
+def test_keep_best_by_the_key_as_in_the_manual():
     obj = slow_mesh()
     before = uvs(obj)
     bpy.ops.ed.undo_push(message="Made a mesh")
@@ -183,11 +183,12 @@ def test_keep_best_by_the_key():
     picture("manual-running")
     yield from key("RET")
     yield from until(lambda: not running(), "Enter does not end it")
-    yield 0.3
+    yield 1.0
     picture("manual-kept")
     result = tasks().last[0].result
     assert (result.ended, result.bound_met) == ("stopped", False), result.ended
-    assert result.after.pe_fixed_aspect > result.before.pe_fixed_aspect
+    assert result.intervention == "squeezed"
+    assert result.after.pe_fixed_aspect > 0.35
     assert uvs(bpy.data.objects[obj.name]).tobytes() != before.tobytes()
     yield from key("Z", ctrl=True)
     yield from until(lambda: uvs(bpy.data.objects["Slow"]).tobytes() == before.tobytes(), "one undo does not take it back")

@@ -33,18 +33,22 @@ bool has_density(const InputAtlas& input, const RefineOptions& options) {
   return std::abs(density / options.uv_density - 1) < kRounding;
 }
 
-/// The input is valid and at the bound; a gap counts only where one was asked for. `within`: options for the box within the
+/// Valid and, where the box is the texture, within its border: only then PE tells how good it is.
+bool is_sound(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options, const RefineOptions& within) {
+  if (!validate_split(input.set, freedom).valid()) return false;
+  const double slack = border_of(options) > 0 ? 2 * kBorderSpare : 0;
+  return !is_in_texture(freedom, options) || lies_in_texture(charts_as_placed(input.set), freedom, within.box_aspect, slack);
+}
+
+/// The input is sound and at the bound; a gap counts only where one was asked for. `within`: options for the box within the
 /// border.
 bool holds_already(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options, const RefineOptions& within) {
   const Measures& before = input.measures;
   if (before.pe_fixed_aspect < options.pe_bound || !within_limit(options, before.distortion)) return false;
   if (!has_density(input, options)) return false;
-  if (!validate_split(input.set, freedom).valid()) return false;
-  const bool framed = is_in_texture(freedom, options);
-  const double border = border_of(options), slack = border > 0 ? 2 * kBorderSpare : 0;
-  if (framed && !lies_in_texture(charts_as_placed(input.set), freedom, within.box_aspect, slack)) return false;
-  const double aspect = options.box_aspect;
-  const Vec2 box = framed ? Vec2(aspect, 1) : box_of_aspect(uv_box(input.set.charts), aspect).size();
+  if (!is_sound(input, freedom, options, within)) return false;
+  const double aspect = options.box_aspect, border = border_of(options);
+  const Vec2 box = is_in_texture(freedom, options) ? Vec2(aspect, 1) : box_of_aspect(uv_box(input.set.charts), aspect).size();
   return !options.gap || (1 - 2 * border) * gap_between_charts(input.set.charts, freedom) >= options.gap->length(box);
 }
 
@@ -203,11 +207,12 @@ void warn_of_early_end(const Solution& solution, Journal& journal) {
   if (why) journal.warnings.push_back(std::string("the optimisation ") + why + ": the distortion may not be at its least");
 }
 
-/// True where an atlas that was stopped at is worth more than the input. PE of an input whose charts overlap says nothing.
-bool better_than_input(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options, const Measures& after) {
+/// True where an atlas that was stopped at is worth more than the input.
+bool better_than_input(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options,
+                       const RefineOptions& within, const Measures& after) {
   if (!within_limit(options, after.distortion)) return false;
   return after.pe_fixed_aspect >= options.pe_bound || after.pe_fixed_aspect > input.measures.pe_fixed_aspect ||
-         !validate_split(input.set, freedom).valid();
+         !is_sound(input, freedom, options, within);
 }
 
 /// Stopped before anything better than the input was found.
@@ -262,7 +267,7 @@ Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const 
   const Refinement run{input, within, monitor, journal, resolve_threads(options.threads), options};
   const Journal::Mark before = journal.mark();
   CertifiedSolution result = solve(run, range);
-  if (result.solution.ended == Ended::Stopped && !better_than_input(input, freedom, options, result.atlas.after)) {
+  if (result.solution.ended == Ended::Stopped && !better_than_input(input, freedom, options, within, result.atlas.after)) {
     journal.back_to(before);
     return stopped(input, options, holds, journal);
   }

@@ -10,7 +10,6 @@ import math
 import sys
 import time
 
-import addon_utils
 import bpy
 import numpy as np
 
@@ -19,7 +18,7 @@ MODULE = "bl_ext.user_default.atlas_refine"
 
 def load(source):
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    addon_utils.enable(MODULE, default_set=True)
+    bpy.ops.preferences.addon_enable(module=MODULE)
     bpy.ops.wm.obj_import(filepath=source)
     obj = bpy.context.selected_objects[0]
     bpy.context.view_layer.objects.active = obj
