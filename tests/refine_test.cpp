@@ -386,7 +386,7 @@ TEST(Refine, StoppedOnItsWayItKeepsTheBestAtlas) {
   const Atlas atlas = shapes::mesh(shapes::spiral(3), 0.01);
   const double pe_in = measure(atlas).pe;
   const auto on_its_way = [&](const Progress& progress) { return progress.stage == "squeeze" && progress.pe > pe_in + 0.05; };
-  const RefineResult result = stopped_when(atlas, {.pe_bound = 0.97}, on_its_way);
+  const RefineResult result = stopped_when(atlas, {.pe_bound = 0.999}, on_its_way);
   EXPECT_EQ(result.ended, Ended::Stopped);
   EXPECT_FALSE(result.bound_met);
   EXPECT_GT(result.after.pe, pe_in + 0.03);
@@ -401,7 +401,7 @@ TEST(Refine, StoppedOnItsWayItIsBetterThanAnInputBesideTheTexture) {
   Atlas atlas = shapes::mesh(shapes::spiral(3), 0.01);
   for (Vec2& uv : atlas.corner_uvs) uv = 1000 * uv;
   const auto on_its_way = [](const Progress& progress) { return progress.stage == "squeeze" && progress.pe > 0; };
-  const RefineResult result = stopped_when(atlas, {.pe_bound = 0.97, .in_texture = true}, on_its_way);
+  const RefineResult result = stopped_when(atlas, {.pe_bound = 0.999, .in_texture = true}, on_its_way);
   EXPECT_EQ(result.ended, Ended::Stopped);
   EXPECT_EQ(result.intervention, Intervention::Squeezed);
 }

@@ -68,7 +68,7 @@ def stopped(job):
 
 def test_a_job_that_is_finished_early_has_the_best_atlas_so_far():
     arrays = shapes.slow()
-    result = stopped(atlas_refine.start(*arrays, pe_bound=0.95, threads=1))
+    result = stopped(atlas_refine.start(*arrays, pe_bound=0.999, threads=1))
     assert result.ended == "stopped"
     assert not result.bound_met
     assert any("stopped" in warning for warning in result.warnings)

@@ -65,7 +65,7 @@ TEST(Squeeze, WhatCoarseChartsHaveReachedIsNotLostWhereItIsToFinish) {
     while (monitor.snapshot().pe < pe_at_start + 0.1) std::this_thread::yield();
     monitor.finish();
   });
-  const Squeezed squeezed = squeeze({{charts}}, make_objective(charts), {.pe_bound = 0.95, .gaps = {Gap{}}}, monitor);
+  const Squeezed squeezed = squeeze({{charts}}, make_objective(charts), {.pe_bound = 0.999, .gaps = {Gap{}}}, monitor);
   EXPECT_EQ(squeezed.outcome.status, ReduceStatus::Stopped);
   EXPECT_FALSE(squeezed.outcome.reached);
   EXPECT_GT(squeezed.outcome.pe, pe_at_start + 0.08);
