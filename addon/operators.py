@@ -118,6 +118,8 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         for done in all_done:
             for note in (*done.notes, *notes(done.result)):
                 self.report({"WARNING"}, note if note.startswith(done.title) else f"{done.title}: {note}")
+        if waiting := len(run.atlases) - len(run.begun):
+            self.report({"WARNING"}, f"Stopped before the turn of {counted(waiting, 'more object')}, left as before")
         for name, text in run.problems:
             report_problem(self, name, text)
         for done in all_done:

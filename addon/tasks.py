@@ -174,6 +174,11 @@ class Run:
                 self.atlases[self._at].start(self._threads)
         return self._at >= len(self.atlases)
 
+    @property
+    def begun(self):
+        """All atlases, but for those that keep_best() came before."""
+        return [atlas for atlas in self.atlases if atlas.job is not None]
+
     def wait(self, seconds):
         """True where all are done."""
         if self._at < len(self.atlases):
@@ -208,10 +213,7 @@ class Run:
     def finish(self):
         """Writes what came and returns it, a Done for each atlas; `problems` has the others."""
         out = []
-        for atlas in self.atlases:
-            if atlas.job is None:
-                self.problems.append((atlas.title, "stopped before its turn; left as it is"))
-                continue
+        for atlas in self.begun:
             try:
                 out.append(atlas.write(atlas.job.result()))
             except FAILURES as error:

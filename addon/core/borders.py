@@ -20,8 +20,8 @@ def border_corners(atlas):
     # UVs that are equal to an artist: Blender joins what differs by less.
     places = np.round(np.nan_to_num(atlas.corner_uvs) * 65536.0).astype(np.int64)
     rows = np.column_stack([np.minimum(here, there), np.maximum(here, there), places[first], places[second]])
-    _, group, count = np.unique(rows, axis=0, return_inverse=True, return_counts=True)
-    return np.flatnonzero(count[group.reshape(-1)] == 1)
+    _, group, count = np.unique(_hashes(rows), return_inverse=True, return_counts=True)
+    return np.flatnonzero(count[group] == 1)
 
 
 def edge_corners(atlas, edges):
@@ -88,6 +88,15 @@ def distances(first, second):
         [_to_segment(first[:, k], second) for k in (0, 1)] + [_to_segment(second[:, k], first) for k in (0, 1)]
     )
     return np.where(_cross(first, second), 0.0, least)
+
+
+def _hashes(rows):
+    """A number for each row, equal where the rows are: sorting numbers takes a tenth of the time of sorting rows."""
+    out = np.zeros(len(rows), dtype=np.uint64)
+    for column in rows.astype(np.uint64).T:
+        out = (out ^ column) * np.uint64(0x9E3779B97F4A7C15)
+        out ^= out >> np.uint64(29)
+    return out
 
 
 def _in_cells(ends, margin):

@@ -80,14 +80,15 @@ def picture(name):
 
 
 def seen(name, area):
-    """What the window shows in an area's main region, left of the sidebar, as (height, width, 3) floats; kept as a picture."""
+    """What the window shows in an area's main region, left of the sidebar and above the last operator's panel, as (height,
+    width, 3) floats; kept as a picture."""
     region = next(region for region in area.regions if region.type == "WINDOW")
     right = min([region.x + region.width, *(side.x for side in area.regions if side.type == "UI" and side.width > 1)])
     image = bpy.data.images.load(str(picture(name)))
     width, height = image.size
     pixels = np.array(image.pixels[:], dtype=np.float32).reshape(height, width, 4)
     bpy.data.images.remove(image)
-    return pixels[region.y : region.y + region.height, region.x : right, :3]
+    return pixels[region.y + 100 : region.y + region.height, region.x : right, :3]
 
 
 def uvs(obj):
