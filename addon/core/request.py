@@ -65,7 +65,9 @@ class Request:
 
 
 def prepare(engine, parts, options, texture=None, tile=(0, 0), material_names=(), metres=1.0):
-    """`engine`: the atlas_refine module; `tile`: the active one; `metres`: in a unit of Blender. Sets Part.taken. Raises NothingToDoError."""
+    """`engine`: the atlas_refine module; `tile`: the active one; `metres`: in a unit of Blender. Sets Part.taken.
+
+    Raises NothingToDoError."""
     locked = [_choose(engine, part, options) for part in parts]
     _require_work(parts, locked, _why_nothing(parts))
     of_faces, corners, tile_names = _tiles(engine, parts, options, texture, tile)

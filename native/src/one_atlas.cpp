@@ -40,23 +40,26 @@ bool is_sound(const InputAtlas& input, const Freedoms& freedom, const RefineOpti
   return !is_in_texture(freedom, options) || lies_in_texture(charts_as_placed(input.set), freedom, within.box_aspect, slack);
 }
 
-/// The input is sound and at the bound; a gap counts only where one was asked for. `within`: options for the box within the
-/// border.
+/// The input is, but for its size, sound and at the bound; a gap counts only where one was asked for. `within`: options for the
+/// box within the border.
 bool holds_already(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options, const RefineOptions& within) {
   const Measures& before = input.measures;
   if (before.pe_fixed_aspect < options.pe_bound || !within_limit(options, before.distortion)) return false;
-  if (!has_density(input, options)) return false;
   if (!is_sound(input, freedom, options, within)) return false;
   const double aspect = options.box_aspect, border = border_of(options);
   const Vec2 box = is_in_texture(freedom, options) ? Vec2(aspect, 1) : box_of_aspect(uv_box(input.set.charts), aspect).size();
   return !options.gap || (1 - 2 * border) * gap_between_charts(input.set.charts, freedom) >= options.gap->length(box);
 }
 
+/// An automatic gap asks nothing of an atlas that is left as it is.
+Gap own_gap(const InputAtlas& input, const RefineOptions& options) {
+  return options.gap.value_or(Gap{std::min(Gap{}.value, input.measures.gap_between)});
+}
+
 Outcome unchanged(const InputAtlas& input, const RefineOptions& options) {
   Outcome out{
       .before = input.measures, .after = input.measures, .triangulations = count_readings(input.set.readings), .bound_met = true};
-  // An automatic gap asks nothing of an atlas that is left as it is.
-  out.gap = options.gap.value_or(Gap{std::min(Gap{}.value, input.measures.gap_between)});
+  out.gap = own_gap(input, options);
   out.charts = reports_of_input(input);
   return out;
 }
@@ -104,6 +107,16 @@ void compare_with_whole(const Refinement& run, const CertifiedSolution& cut, con
   if (!whole) return;
   run.journal.warnings.push_back("without cuts the charts hold the same bound with less distortion: E_d " +
                                  number_text("%.4f", *whole) + " against " + number_text("%.4f", own));
+}
+
+/// Nothing is asked of an input that holds already, but another size. Charts that are turned over need places of their own.
+bool is_only_scaled(const InputAtlas& input, const RefineOptions& options) {
+  const auto& mirrored = input.set.mirrored;
+  return !options.relax && std::find(mirrored.begin(), mirrored.end(), true) == mirrored.end();
+}
+
+Solution as_it_lies(const InputAtlas& input, const RefineOptions& options) {
+  return {.atlas = whole_atlas(input.set.charts), .gap = own_gap(input, options)};
 }
 
 /// The road that cuts; nothing where charts are better left whole, which the journal then says.
@@ -259,14 +272,16 @@ Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const 
   note_mirrored(input, journal);
   const Freedoms freedom = freedom_of(input.set, options);
   const RefineOptions within = within_border(options);
-  const bool holds = holds_already(input, freedom, options, within);
+  const bool holds_but_size = holds_already(input, freedom, options, within);
+  const bool holds = holds_but_size && has_density(input, options);
   if (holds && !options.relax) return unchanged(input, options);
   if (all_fixed(freedom)) return all_locked(input, options, holds);
   if (monitor.finishing()) return stopped(input, options, holds, journal);
 
   const Refinement run{input, within, monitor, journal, resolve_threads(options.threads), options};
   const Journal::Mark before = journal.mark();
-  CertifiedSolution result = solve(run, range);
+  CertifiedSolution result =
+      holds_but_size && is_only_scaled(input, options) ? certified(run, as_it_lies(input, options), range) : solve(run, range);
   if (result.solution.ended == Ended::Stopped && !better_than_input(input, freedom, options, within, result.atlas.after)) {
     journal.back_to(before);
     return stopped(input, options, holds, journal);

@@ -18,6 +18,12 @@ MARGIN_PX, TEXTURE_SIZE = 4, 2048
 WAYS = ("input", "pack islands", "atlas refine")
 
 
+NOTE = (
+    "gap px: smallest distance between charts, border: to the border of the texture; Pack Islands keeps its margin to the border\n"
+    "and twice as much between charts. s: in the operator, the add-on on one thread, Pack Islands on all that it likes"
+)
+
+
 def run_blender(files, bound, cache, build, out):
     """Prints a row for each file and the means; how many files have no valid result at the bound."""
     blender = blenders.official(every=False)[0].installed(cache)
@@ -26,13 +32,16 @@ def run_blender(files, bound, cache, build, out):
         environment = {**os.environ, "BLENDER_USER_RESOURCES": profile}
         install(blender, build, profile, environment)
         print(f"{blender.name}, bound {bound:g} of a square of {TEXTURE_SIZE} px, margin {MARGIN_PX} px to the border as well")
+        print(NOTE)
         print(header(), flush=True)
         for folder, path in files:
             row = {"file": f"{folder}/{path.stem}", **measured(blender, path, bound, environment)}
             rows.append(row)
             print(line(row), flush=True)
             (out / "blender.json").write_text(json.dumps(rows, indent=1))
-    (out / "blender.md").write_text("```\n" + "\n".join([header(), *map(line, rows), "", *summary(rows, bound)]) + "\n```\n")
+    (out / "blender.md").write_text(
+        "```\n" + "\n".join([NOTE, header(), *map(line, rows), "", *summary(rows, bound)]) + "\n```\n"
+    )
     print("\n" + "\n".join(summary(rows, bound)))
     return sum(not holds(row, bound) for row in rows)
 

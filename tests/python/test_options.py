@@ -197,7 +197,8 @@ def test_a_free_box_takes_the_density_that_is_asked():
         again = atlas_refine.refine(*arrays[:3], result.corner_uvs, pe_bound=0.8, uv_density=density, stored="float32")
         assert again.intervention == "unchanged"
         other = atlas_refine.refine(*arrays[:3], result.corner_uvs, pe_bound=0.8, uv_density=2 * density)
-        assert other.intervention != "unchanged"
+        assert other.intervention == "moved"
+        assert other.corner_uvs == pytest.approx(2 * result.corner_uvs, rel=1e-5, abs=1e-6 * result.corner_uvs.max())
     for other in ({"in_texture": True}, {"box_aspect": 1.0}, {"locked": faces_of(0, 48)}):
         with pytest.raises(atlas_refine.AtlasRefineError, match="needs a free box"):
             atlas_refine.refine(*arrays, uv_density=1.0, **other)
