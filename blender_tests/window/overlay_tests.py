@@ -155,7 +155,10 @@ def test_overlay_in_both_editors_and_pictures_of_the_manual():
     yield lambda: tasks().last is not None and not running()
     settings.seams = "NONE"
     show("stretch", "seams")
-    yield 2.0  # the panel opens slowly
+    for _ in range(12):  # the panel opens step by step, while it is drawn
+        for region in uv_editor().regions:
+            region.tag_redraw()
+        yield 0.1
     after = seen("manual-after", uv_editor())
     assert like(after, preferences().seam_colour, 0.2) > 0.0002
     area = uv_editor()
