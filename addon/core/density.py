@@ -44,8 +44,8 @@ def pixels_per_metre(area_in_uv, size, area, metres):
 
 def density_lines(density):
     """What the panel says, in lines that a narrow sidebar has room for."""
-    change = "" if density.after is None else f" -> {density.after:.4g}"
-    yield f"Texel density {density.before:.4g}{change} px/m"
+    change = "" if density.after is None else f" -> {_short(density.after)}"
+    yield f"Density {_short(density.before)}{change} px/m"
     yield f"of a texture of {density.size[0]} x {density.size[1]}"
     if density.wanted == 0 or density.now == 0:
         return
@@ -54,7 +54,11 @@ def density_lines(density):
     else:
         longest, has = math.ceil(max(density.size) * density.wanted / density.now - 1e-3), max(density.size)
     enough = "it has them" if longest <= has else f"take {_power_of_two(longest)}"
-    yield f"{density.wanted:.4g} px/m need {longest} px: {enough}"
+    yield f"{_short(density.wanted)} px/m need {longest} px: {enough}"
+
+
+def _short(value):
+    return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
 
 
 def _power_of_two(pixels):

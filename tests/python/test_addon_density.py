@@ -59,9 +59,9 @@ def test_a_texture_is_filled_and_locked_charts_make_the_box_one():
 
 def test_what_is_told():
     measured = Density((1024, 512), 100.0)
-    assert list(density_lines(measured)) == ["Texel density 100 px/m", "of a texture of 1024 x 512"]
+    assert list(density_lines(measured)) == ["Density 100 px/m", "of a texture of 1024 x 512"]
     assert list(density_lines(replace(measured, wanted=250.0)))[2] == "250 px/m need 2560 px: take 4096"
     refined = Density((1024, 1024), 100.0, after=128.0, wanted=100.0)
-    assert list(density_lines(refined))[::2] == ["Texel density 100 -> 128 px/m", "100 px/m need 800 px: it has them"]
+    assert list(density_lines(refined))[::2] == ["Density 100 -> 128 px/m", "100 px/m need 800 px: it has them"]
     free = Density((1024, 1024), 100.0, after=300.0, wanted=300.0, is_free=True, box_px=(1500.0, 900.0))
     assert list(density_lines(free))[2] == "300 px/m need 1500 px: take 2048"
