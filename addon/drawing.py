@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The options as a layout, in the panels and in the redo panel alike, what the artist decides first at the top."""
 
+import bpy
+
 from .bridge import parts as objects
 from .bridge.texture import find_texture
 
@@ -22,10 +24,12 @@ def draw_main(layout, holder, context):
     layout.prop(holder, "gap")
     if holder.gap == "PIXELS":
         layout.prop(holder, "gap_px", text="Pixels")
-        if texture is None:
-            layout.prop(holder, "texture_size")
+    if texture is None and (holder.gap == "PIXELS" or holder.density == "VALUE"):
+        layout.prop(holder, "texture_size")
     layout.prop(holder, "stacks")
     layout.prop(holder, "density")
+    if holder.density == "VALUE":
+        layout.prop(holder, "texel_density", text="Density")
     if len(objects.objects_of(context)) > 1 or holder.atlases != "ALL" or _has_materials(active):
         layout.prop(holder, "atlases")
     layout.prop(holder, "tiles")
@@ -72,9 +76,27 @@ def draw_advanced(layout, holder):
 
 
 def redraw_panels(context):
-    for window in context.window_manager.windows:
+    _redraw(context.window_manager, "UI")
+
+
+def redraw_views():
+    _redraw(bpy.context.window_manager, "WINDOW")
+
+
+def _redraw(window_manager, kind):
+    for window in window_manager.windows:
         for area in window.screen.areas:
             if area.type in {"IMAGE_EDITOR", "VIEW_3D"}:
                 for region in area.regions:
-                    if region.type == "UI":
+                    if region.type == kind:
                         region.tag_redraw()
+
+
+def is_over_uv_or_3d_view(context, event):
+    """Whether the mouse is where a key is meant for the add-on, and not for a text or a console."""
+    return any(
+        area.type in {"IMAGE_EDITOR", "VIEW_3D"}
+        and 0 <= event.mouse_x - area.x < area.width
+        and 0 <= event.mouse_y - area.y < area.height
+        for area in context.window.screen.areas
+    )

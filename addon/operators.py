@@ -28,7 +28,7 @@ def poll_objects(cls, context):
         cls.poll_message_set(f"{reasons[0][0]}: {reasons[0][1]}")
         return False
     if tasks.running is not None:
-        cls.poll_message_set("A refinement is running; Esc stops it")
+        cls.poll_message_set("A refinement is running; Esc cancels it")
         return False
     return True
 
@@ -83,6 +83,9 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         if event.type == "ESC" and event.value == "PRESS":
             self._run.cancel()
             return {"RUNNING_MODAL"}
+        if event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS" and drawing.is_over_uv_or_3d_view(context, event):
+            self._run.keep_best()
+            return {"RUNNING_MODAL"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         if not self._run.done:
@@ -116,6 +119,8 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         for done in all_done:
             for note in (*done.notes, *notes(done.result)):
                 self.report({"WARNING"}, note if note.startswith(done.title) else f"{done.title}: {note}")
+        if waiting := len(run.atlases) - len(run.begun):
+            self.report({"WARNING"}, f"Stopped before the turn of {counted(waiting, 'more object')}, left as before")
         for name, text in run.problems:
             report_problem(self, name, text)
         for done in all_done:
@@ -124,7 +129,8 @@ class UV_OT_atlas_refine(bpy.types.Operator):
 
     def _show_progress(self, context):
         progress, fraction = self._run.progress
-        text = f"Refining: {phase(progress.stage)} {100 * fraction:.0f} % (Esc stops)"
+        keys = "stopping" if self._run.finishing else "Enter: stop and keep the best, Esc: cancel"
+        text = f"Refining: {phase(progress.stage)} {100 * fraction:.0f} % ({keys})"
         if text != self._shown:  # each redraw costs the window time
             self._shown = text
             context.workspace.status_text_set(text)
@@ -136,6 +142,22 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         if context.workspace is not None:
             context.workspace.status_text_set(None)
         drawing.redraw_panels(context)
+
+
+class UV_OT_atlas_refine_keep_best(bpy.types.Operator):
+    """End the refinement now with the best valid UV map that it has found; where none is better than before, nothing is changed"""
+
+    bl_idname = "uv.atlas_refine_keep_best"
+    bl_label = "Stop and Keep Best"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, _context):
+        return tasks.running is not None and not tasks.running.finishing
+
+    def execute(self, _context):
+        tasks.running.keep_best()
+        return {"FINISHED"}
 
 
 class UV_OT_atlas_refine_measure(bpy.types.Operator):
@@ -216,7 +238,7 @@ class UV_OT_atlas_refine_select_problems(bpy.types.Operator):
         self.report({"INFO"}, f"{obj.name}: {', '.join(words) or 'no problems'}")
 
 
-CLASSES = (UV_OT_atlas_refine, UV_OT_atlas_refine_measure, UV_OT_atlas_refine_select_problems)
+CLASSES = (UV_OT_atlas_refine, UV_OT_atlas_refine_keep_best, UV_OT_atlas_refine_measure, UV_OT_atlas_refine_select_problems)
 
 
 def register():

@@ -3,8 +3,9 @@
 
 import bpy
 
-from . import drawing, operators, presets, tasks
+from . import drawing, operators, overlay_settings, presets, tasks
 from .bridge import versions
+from .core.density import density_lines
 from .core.summary import distortion, faces_after, figures, measured, new_seams, notes, percent, use, what_was_done
 from .core.words import counted, phase
 from .properties import copy_options
@@ -36,7 +37,8 @@ class _Main:
         if tasks.running is not None:
             progress, fraction = tasks.running.progress
             versions.progress_bar(self.layout, fraction, phase(progress.stage).capitalize())
-            self.layout.label(text="Esc stops")
+            self.layout.operator(operators.UV_OT_atlas_refine_keep_best.bl_idname, icon="CHECKMARK")
+            self.layout.label(text="Enter does so too, Esc cancels")
         else:
             row = self.layout.row()
             row.scale_y = 1.4
@@ -63,6 +65,13 @@ class _Advanced:
         drawing.draw_advanced(_column(self.layout), context.scene.atlas_refine)
 
 
+class _Overlay:
+    bl_label = "Overlay"
+
+    def draw(self, context):
+        overlay_settings.draw(self.layout, context)
+
+
 class _Result:
     bl_label = "Last Result"
 
@@ -76,6 +85,8 @@ class _Result:
             if done.result is None:
                 box.label(text=f"{done.title}: measured", icon="INFO")
                 box.label(text=measured(done.measures, done.is_free, done.reached_beyond))
+                for line in density_lines(done.density):
+                    box.label(text=line)
             else:
                 self._draw_result(box, done)
 
@@ -89,6 +100,8 @@ class _Result:
             layout.label(text=f"{group.name or done.title}: {percent(group.before.pe_fixed_aspect)} -> {held}")
         layout.label(text=distortion(after).capitalize())
         layout.label(text=new_seams(done.result).capitalize())
+        for line in density_lines(done.density):
+            layout.label(text=line)
         if done.result.cut is not None:
             faces = faces_after(done.result, done.face_count)
             layout.label(text=f"Faces {done.face_count} -> {faces}, charts {before.chart_count} -> {after.chart_count}")
@@ -150,6 +163,7 @@ def _panels():
             (main, _Main, None),
             (f"{main}_protected", _Protected, main),
             (f"{main}_advanced", _Advanced, main),
+            (f"{main}_overlay", _Overlay, main),
             (result, _Result, main),
             (f"{main}_details", _Details, result),
         ):

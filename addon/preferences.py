@@ -2,12 +2,13 @@
 """The add-on's preferences: the values that new scenes start with, threads, and where the studio keeps its presets."""
 
 import pathlib
+from types import SimpleNamespace
 
 import bpy
 from bpy.props import IntProperty, StringProperty
 
 from .core.options import Options
-from .properties import PREFERRED
+from .properties import PREFERRED, overlay_properties
 
 
 class AtlasRefinePreferences(bpy.types.AddonPreferences):
@@ -29,6 +30,7 @@ class AtlasRefinePreferences(bpy.types.AddonPreferences):
             subtype="DIR_PATH",
             default="",
         ),
+        **overlay_properties(),
     }
 
     def draw(self, _context):
@@ -42,6 +44,18 @@ class AtlasRefinePreferences(bpy.types.AddonPreferences):
         column.prop(self, "studio_presets")
         if self.studio_presets and not pathlib.Path(bpy.path.abspath(self.studio_presets)).is_dir():
             column.label(text="There is no such folder", icon="ERROR")
+        column.separator()
+        column.label(text="Overlay")
+        for name in overlay_properties():
+            column.prop(self, name)
+
+
+def get():
+    """The preferences; the overlay's alone, by their defaults, where the add-on runs without having been ticked."""
+    addon = bpy.context.preferences.addons.get(__package__)
+    if addon is not None:
+        return addon.preferences
+    return SimpleNamespace(**{name: made.keywords["default"] for name, made in overlay_properties().items()})
 
 
 def value(name):

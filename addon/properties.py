@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The options of a refinement as Blender properties, for the operator, the scene and the preferences."""
 
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from .core.options import Options
 
@@ -172,7 +172,22 @@ def _chart_properties():
             [
                 ("KEEP", "Keep", "Each chart keeps the relative size it has, as far as bending leaves it that"),
                 ("EQUAL", "Equal", "The same number of texels for every part of the surface"),
+                (
+                    "VALUE",
+                    "Pixels per Metre",
+                    "Equal, and so many pixels for a metre. With Aspect Free the charts take as much room as that needs; else they "
+                    "fill the texture, and the result says how large a texture has to be for it",
+                ),
             ],
+        ),
+        "texel_density": FloatProperty(
+            name="Pixels per Metre",
+            description="Pixels of the texture for each metre of the surface, at the scale that the object has in the scene",
+            default=Options.texel_density,
+            min=0.001,
+            soft_min=1.0,
+            soft_max=4096.0,
+            precision=1,
         ),
         "keep_shape": _name(
             "Keep Shape", "Vertex group or face attribute: charts with such a face are moved and turned, never bent"
@@ -257,6 +272,33 @@ def other_properties():
 
 def all_properties():
     return {**{name: make() for name, make in PREFERRED.items()}, **other_properties()}
+
+
+def _colour(label, description, default):
+    """As it will be seen: no view transform."""
+    return FloatVectorProperty(
+        name=label, description=description, subtype="COLOR_GAMMA", size=3, min=0.0, max=1.0, default=default
+    )
+
+
+def overlay_properties():
+    """Colours that are told apart with any colour vision: dark blue to yellow, orange, pink."""
+    return {
+        "heat_low": _colour("No Stretch", "Faces that the UV map neither stretches nor squeezes", (0.0, 0.2, 0.5)),
+        "heat_high": _colour("Stretch", "Faces whose stretch is Most Stretch or more", (1.0, 0.9, 0.1)),
+        "heat_worst": FloatProperty(
+            name="Most Stretch",
+            description="Stretch from which on the colour stays the same: 2 is twice as long, or half as long",
+            default=2.0,
+            min=1.05,
+            soft_max=10.0,
+        ),
+        "heat_opacity": FloatProperty(
+            name="Opacity", description="Of the colours of stretch", default=0.7, min=0.05, max=1.0, subtype="FACTOR"
+        ),
+        "seam_colour": _colour("New Seams", "Edges that the last refinement has cut", (0.9, 0.4, 0.0)),
+        "near_colour": _colour("Too Near", "Borders nearer than the margin", (1.0, 0.45, 0.8)),
+    }
 
 
 #: In the order of Options.

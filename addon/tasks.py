@@ -39,8 +39,10 @@ class Done:
     reached_beyond: bool  # charts lay beside the texture
     result: object = None
     measures: object = None
+    density: object = None  # core.density.Density
     notes: tuple = ()
     left: tuple = ()  # (object's name, faces) of charts that were left as they are
+    new_seams: tuple = ()  # (object's name, (S, 2) vertices) of edges that were cut
     prints: tuple = ()  # (object's name, UV map, fingerprint) of what it is true of
 
 
@@ -53,9 +55,10 @@ class Atlas:
         self.parts = [_read(context, obj, options, material_numbers) for obj in objs]
         self.title = _title(objs)
         _require_names(self.parts, options)
-        texture = find_texture(context, objs[0])
-        tile = active_tile(context, texture)
-        self.request = prepare(engine.module, self.parts, options, texture, tile, list(material_numbers))
+        self.texture = find_texture(context, objs[0])
+        tile = active_tile(context, self.texture)
+        self.metres = context.scene.unit_settings.scale_length
+        self.request = prepare(engine.module, self.parts, options, self.texture, tile, list(material_numbers), self.metres)
         if options.seams != "NONE" and options.cut == "SPLIT":
             for obj in objs:
                 cuts.check_divisible(obj)
@@ -77,9 +80,9 @@ class Atlas:
         write = self._write_uvs if result.cut is None else self._write_cut
         with ExitStack() as on_failure:
             maps = [self._target(obj, part, on_failure) for obj, part in zip(objs, self.parts, strict=True)]
-            write(objs, maps, result, uvs, on_failure)
+            seams = write(objs, maps, result, uvs, on_failure)
             on_failure.pop_all()
-        return self._done(result, maps)
+        return self._done(result, maps, seams)
 
     def _still_there(self, part):
         obj = bpy.data.objects.get(part.name)
@@ -99,28 +102,31 @@ class Atlas:
 
     def _write_uvs(self, objs, maps, result, uvs, on_failure):
         joined = self.request.joined
-        seams = []
-        if self.options.mark_seams:
-            seams = [seam_edges(part.atlas, joined.seams_of(k, result.new_seams)) for k, part in enumerate(self.parts)]
+        seams = [seam_edges(part.atlas, joined.seams_of(k, result.new_seams)) for k, part in enumerate(self.parts)]
         for k, (obj, uv_map) in enumerate(zip(objs, maps, strict=True)):
             bridge.write_uvs(obj, uv_map, joined.uvs_of(k, uvs))
             on_failure.callback(bridge.write_uvs, obj, uv_map, self.parts[k].atlas.corner_uvs)
-        for obj, edges in zip(objs, seams, strict=False):
-            bridge.mark_seams(obj, edges)
+        if self.options.mark_seams:
+            for obj, edges in zip(objs, seams, strict=True):
+                bridge.mark_seams(obj, edges)
+        return seams
 
     def _write_cut(self, objs, maps, result, uvs, _on_failure):
         """What can fail is done for every object before the first is changed: divided faces are not put together again."""
-        rehearsed = []
+        rehearsed, seams = [], []
         for k, (obj, uv_map) in enumerate(zip(objs, maps, strict=True)):
             cuts.check_divisible(obj)  # again: its mode may be another by now
             plan = plan_cut(self.parts[k].atlas, *self.request.joined.cut_of(k, result.cut, uvs))
             rehearsed.append(cuts.rehearse_cut(obj, uv_map, plan, self.options.mark_seams))
+            seams.append(plan.new_seams)
         for write in rehearsed:
             write()
+        return seams
 
-    def _done(self, result, maps):
+    def _done(self, result, maps, seams=()):
         prints = tuple((part.name, uv_map, _print(part.name, uv_map)) for part, uv_map in zip(self.parts, maps, strict=True))
-        return self._shown(prints, self.title, result=result, left=self._left(result))
+        new_seams = tuple(zip((part.name for part in self.parts), seams, strict=False))
+        return self._shown(prints, self.title, result=result, left=self._left(result), new_seams=new_seams)
 
     def _left(self, result):
         """Nothing where faces were divided: their numbers are others now."""
@@ -139,9 +145,10 @@ class Atlas:
 
     def _shown(self, prints, title, **found):
         request = self.request
+        density = request.density(self.options, self.texture, self.metres, found.get("result"))
         is_free = not request.arguments["in_texture"]
         beyond = request.reaches_beyond and not is_free
-        return Done(title, request.face_count, is_free, beyond, notes=tuple(self.notes), prints=prints, **found)
+        return Done(title, request.face_count, is_free, beyond, notes=tuple(self.notes), prints=prints, density=density, **found)
 
 
 class Run:
@@ -155,6 +162,7 @@ class Run:
         self._threads = options.threads or preferences.value("threads") or automatic
         self.errors = []  # those of the engine and of writing, after finish()
         self.cancelled = False
+        self.finishing = False
         self._at = 0
         if self.atlases:
             self.atlases[0].start(self._threads)
@@ -163,10 +171,15 @@ class Run:
     def done(self):
         """Starts the next atlas where one has come to its end."""
         while self._at < len(self.atlases) and self.atlases[self._at].job.done:
-            self._at = len(self.atlases) if self.cancelled else self._at + 1
+            self._at = len(self.atlases) if self.cancelled or self.finishing else self._at + 1
             if self._at < len(self.atlases):
                 self.atlases[self._at].start(self._threads)
         return self._at >= len(self.atlases)
+
+    @property
+    def begun(self):
+        """All atlases, but for those that keep_best() came before."""
+        return [atlas for atlas in self.atlases if atlas.job is not None]
 
     def wait(self, seconds):
         """True where all are done."""
@@ -187,6 +200,12 @@ class Run:
             self.cancelled = True
             self.atlases[self._at].job.cancel()
 
+    def keep_best(self):
+        """Ends with the best valid atlas so far; those that were not begun stay as they are."""
+        if self._at < len(self.atlases):
+            self.finishing = True
+            self.atlases[self._at].job.finish()
+
     def stop(self):
         """Cancels and waits for the engine's thread."""
         self.cancel()
@@ -196,7 +215,7 @@ class Run:
     def finish(self):
         """Writes what came and returns it, a Done for each atlas; `problems` has the others."""
         out = []
-        for atlas in self.atlases:
+        for atlas in self.begun:
             try:
                 out.append(atlas.write(atlas.job.result()))
             except FAILURES as error:
@@ -284,6 +303,12 @@ def last_if_true():
         if not all(_print(name, uv_map) == known for done in last for name, uv_map, known in done.prints):
             last = None
     return last
+
+
+def new_seams(object_name):
+    """(S, 2) vertices of the object's edges that the run whose result is shown has cut."""
+    found = [edges for done in last_if_true() or () for name, edges in done.new_seams if name == object_name]
+    return np.concatenate(found) if found else np.zeros((0, 2), dtype=np.int64)
 
 
 def faces_left(object_name):

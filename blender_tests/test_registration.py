@@ -70,7 +70,13 @@ class Registration(unittest.TestCase):
         self.assertAlmostEqual(bpy.context.scene.atlas_refine.sigma, 0.01)
 
     def test_every_option_has_a_tooltip_without_a_full_stop(self):
-        for operator in (bpy.ops.uv.atlas_refine, bpy.ops.uv.atlas_refine_measure, bpy.ops.uv.atlas_refine_select_problems):
+        ours = bpy.ops.uv
+        for operator in (
+            ours.atlas_refine,
+            ours.atlas_refine_keep_best,
+            ours.atlas_refine_measure,
+            ours.atlas_refine_select_problems,
+        ):
             kind = operator.get_rna_type()
             texts = [(kind.name, kind.description)]
             for option in kind.properties:

@@ -373,6 +373,53 @@ TEST(Refine, ProgressRisesAndStopsTheWork) {
   EXPECT_EQ(stage, "squeeze");
 }
 
+/// What refine() gives where the callback asks for the best so far once `asked` says so.
+RefineResult stopped_when(const Atlas& atlas, const RefineOptions& options, const std::function<bool(const Progress&)>& asked) {
+  bool once = false;
+  return refine(atlas, options, [&](const Progress& progress) -> Answer {
+    once = once || asked(progress);
+    return once ? Answer::Finish : Answer::GoOn;
+  });
+}
+
+TEST(Refine, StoppedOnItsWayItKeepsTheBestAtlas) {
+  const Atlas atlas = shapes::mesh(shapes::spiral(3), 0.01);
+  const double pe_in = measure(atlas).pe;
+  const auto on_its_way = [&](const Progress& progress) { return progress.stage == "squeeze" && progress.pe > pe_in + 0.05; };
+  const RefineResult result = stopped_when(atlas, {.pe_bound = 0.999}, on_its_way);
+  EXPECT_EQ(result.ended, Ended::Stopped);
+  EXPECT_FALSE(result.bound_met);
+  EXPECT_GT(result.after.pe, pe_in + 0.03);
+  EXPECT_EQ(result.intervention, Intervention::Squeezed);
+  Atlas after = atlas;
+  after.corner_uvs = result.corner_uvs;
+  EXPECT_TRUE(validate(after).valid());
+}
+
+// What a large atlas covers of the texture that it reaches beyond says nothing.
+TEST(Refine, StoppedOnItsWayItIsBetterThanAnInputBesideTheTexture) {
+  Atlas atlas = shapes::mesh(shapes::spiral(3), 0.01);
+  for (Vec2& uv : atlas.corner_uvs) uv = 1000 * uv;
+  const auto on_its_way = [](const Progress& progress) { return progress.stage == "squeeze" && progress.pe > 0; };
+  const RefineResult result = stopped_when(atlas, {.pe_bound = 0.999, .in_texture = true}, on_its_way);
+  EXPECT_EQ(result.ended, Ended::Stopped);
+  EXPECT_EQ(result.intervention, Intervention::Squeezed);
+}
+
+TEST(Refine, StoppedAtOnceItKeepsTheInputOrWhatIsBetter) {
+  const auto at_once = [](const Progress&) { return true; };
+  for (const Seams seams : {Seams::None, Seams::Rectangles}) {
+    const Atlas atlas = shapes::mesh(shapes::spiral(3), 0.01);
+    const RefineResult result = stopped_when(atlas, {.pe_bound = 0.95, .seams = seams}, at_once);
+    EXPECT_EQ(result.ended, Ended::Stopped);
+    EXPECT_FALSE(result.warnings.empty());
+    EXPECT_GE(result.after.pe, result.before.pe);
+    if (result.intervention == Intervention::Unchanged) {
+      EXPECT_EQ(result.corner_uvs, atlas.corner_uvs);
+    }
+  }
+}
+
 TEST(Refine, EveryStageIsDrawn) {
   struct : DebugSink {
     void receive(const AtlasSnapshot& snapshot) override {

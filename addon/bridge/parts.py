@@ -53,12 +53,17 @@ def read_part(context, obj, options, material_numbers):
         selected=selected,
         pinned=pinned,
         materials=_materials(obj, material_numbers),
-        scale=float(abs(obj.matrix_world.determinant()) ** (1 / 3)) or 1.0,
+        scale=scale_of(obj),
         keep_shape=named.face_flags(obj, options.keep_shape, atlas) if options.keep_shape else None,
         importance=named.importance(obj, options.importance, atlas) if options.importance else None,
         no_seam=named.edges(obj, options.no_seam) if options.no_seam else None,
         prefer_seam=named.edges(obj, options.prefer_seam) if options.prefer_seam else None,
     )
+
+
+def scale_of(obj):
+    """Of the object in the world, the mean of its three; 1 for one that is flat."""
+    return float(abs(obj.matrix_world.determinant()) ** (1 / 3)) or 1.0
 
 
 def _materials(obj, numbers):

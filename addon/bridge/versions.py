@@ -4,6 +4,7 @@
 from contextlib import contextmanager
 
 import bpy
+import gpu
 import numpy as np
 
 
@@ -137,3 +138,11 @@ def register_command(name, function):
 def unregister_command(name):
     if name in _commands:
         bpy.utils.unregister_cli_command(_commands.pop(name))
+
+
+def shader(name):
+    """A built-in shader for points in space, by its name since 4.0."""
+    try:
+        return gpu.shader.from_builtin(name)
+    except ValueError:  # before 4.0
+        return gpu.shader.from_builtin(f"3D_{name}")

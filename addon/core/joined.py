@@ -54,6 +54,11 @@ class Joined:
     def _with(self, firsts):
         return zip(zip(self.parts, self.faces, self.corners, strict=True), firsts, strict=False)
 
+    @property
+    def unit(self):
+        """How long a unit of arrays() is in the world."""
+        return self.parts[0].scale if len(self.parts) == 1 else 1.0
+
     def _positions(self):
         if len(self.parts) == 1:
             return self.parts[0].atlas.positions

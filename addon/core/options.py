@@ -25,7 +25,8 @@ class Options:
     gap_px: float = 4.0
     texture_size: int = 2048  # where aspect does not take it from an image
     stacks: str = "KEEP"  # KEEP or SEPARATE
-    density: str = "KEEP"  # KEEP or EQUAL
+    density: str = "KEEP"  # KEEP, EQUAL or VALUE: equal, and as much as texel_density
+    texel_density: float = 512.0  # pixels per metre
     atlases: str = "ALL"  # ALL, OBJECT or MATERIAL
     tiles: str = "TEXTURE"  # TEXTURE, EACH, ACTIVE or ONE
     uv_map: str = ""  # name or index; empty: the active one
@@ -53,7 +54,7 @@ class Options:
             "cut": self.cut.lower(),
             "open_closed": self.open_closed,
             "stacks": self.stacks.lower(),
-            "density": self.density.lower(),
+            "density": "keep" if self.density == "KEEP" else "equal",
             "relax": self.relax,
             "seed": self.seed,
             "best_effort": self.best_effort,
@@ -76,7 +77,16 @@ class Options:
 
     def pixels(self, texture=None):
         """Of the texture's longer side."""
-        return max(texture.width, texture.height) if texture and self.aspect == "TEXTURE" else self.texture_size
+        return max(self.texture_pixels(texture))
+
+    def texture_pixels(self, texture=None):
+        """(width, height)"""
+        return (texture.width, texture.height) if texture and self.aspect == "TEXTURE" else (self.texture_size,) * 2
+
+    @property
+    def wanted_density(self):
+        """In pixels per metre, 0 where none is asked for."""
+        return self.texel_density if self.density == "VALUE" else 0.0
 
     def tiles_of(self, texture):
         """EACH, ACTIVE or ONE."""

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One run of the engine: the parts of an atlas, who of them takes part, and the keywords."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .density import Density, pixels_per_metre, surface_area, uv_area
 from .joined import Joined, corners_of
 from .who import group_faces, groups_without_work, stay
 
@@ -35,6 +36,23 @@ class Request:
             own_offsets = np.concatenate([[0], np.cumsum(np.diff(offsets)[faces])])
             yield name, (positions, own_offsets, vertices[corners], uvs[corners] - origin)
 
+    def density(self, options, texture, metres, result=None):
+        """The Density of the atlas as it is and as the result has it; `metres`: in a unit of Blender."""
+        positions, offsets, vertices, uvs = self.joined.arrays()
+        area, size = surface_area(positions, offsets, vertices), options.texture_pixels(texture)
+        metres *= self.joined.unit
+        density = Density(
+            size,
+            pixels_per_metre(uv_area(offsets, uvs), size, area, metres),
+            wanted=options.wanted_density,
+            is_free="uv_density" in self.arguments,
+        )
+        if result is None:
+            return density
+        after = uv_area(offsets if result.cut is None else result.cut.face_offsets, result.corner_uvs)
+        box = tuple(side * pixels for side, pixels in zip((result.after.box_width, result.after.box_height), size, strict=True))
+        return replace(density, after=pixels_per_metre(after, size, area, metres), box_px=box)
+
     @property
     def reaches_beyond(self):
         """Some chart lies beside the one texture that all share."""
@@ -46,8 +64,10 @@ class Request:
         return not all(part.taken.all() for part in self.joined.parts)
 
 
-def prepare(engine, parts, options, texture=None, tile=(0, 0), material_names=()):
-    """`engine`: the atlas_refine module; `tile`: the active one. Sets Part.taken. Raises NothingToDoError."""
+def prepare(engine, parts, options, texture=None, tile=(0, 0), material_names=(), metres=1.0):
+    """`engine`: the atlas_refine module; `tile`: the active one; `metres`: in a unit of Blender. Sets Part.taken.
+
+    Raises NothingToDoError."""
     locked = [_choose(engine, part, options) for part in parts]
     _require_work(parts, locked, _why_nothing(parts))
     of_faces, corners, tile_names = _tiles(engine, parts, options, texture, tile)
@@ -65,6 +85,8 @@ def prepare(engine, parts, options, texture=None, tile=(0, 0), material_names=()
     arguments = {**options.engine_arguments(texture), **_arguments_of(joined, locked)}
     if "locked" in arguments and options.aspect == "FREE":  # what stays where it is, is somewhere in a texture
         arguments.update(box_aspect=1.0, in_texture=True)
+    if options.wanted_density > 0 and not arguments["in_texture"]:
+        arguments["uv_density"] = options.wanted_density * metres * joined.unit / options.pixels(texture)
     origins = corners[codes[first, 1]]
     if len(first) > 1 or np.any(origins):
         labels = [name or "no material" for name in material_names] if by_material else [""]

@@ -43,12 +43,16 @@ def percent(fraction, down=False):
 
 def what_was_done(result):
     """A word for the panel's first line."""
+    if result.ended == "stopped" and result.intervention == "unchanged":
+        return "Stopped before anything better was found: nothing changed"
     return {
         "unchanged": "Already there: nothing changed",
         "moved": "Charts moved, shapes kept",
         "squeezed": "Charts moved and bent",
         "cut": "Charts cut, moved and bent",
-    }[result.intervention] + ("" if result.bound_met else "; the wanted use was not reached")
+    }[result.intervention] + (
+        "" if result.bound_met else "; stopped early" if result.ended == "stopped" else "; the wanted use was not reached"
+    )
 
 
 def figures(result, face_count):

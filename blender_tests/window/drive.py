@@ -1,131 +1,47 @@
-"""Drives Blender's window with real mouse and key events: the tab, the button, progress, Esc, undo. After `--`, RESULT.json.
+"""Drives Blender's window with real mouse and key events: the tab, the button, progress, Esc, undo.
 
-Each test is a generator: it yields how many seconds to wait for, or a condition to wait for.
+After `--`: RESULT.json and, where not all tests are wanted, a word that their names hold.
 """
 
 import json
 import os
 import pathlib
-import subprocess
 import sys
-import time
 import traceback
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent), str(HERE.parent.parent / "tests" / "python")]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-import bmesh
 import bpy
+import driver
 import numpy as np
+import overlay_tests
 import shapes
-from support import MODULE, add_mesh, enable_addon, get_uvs, packing_efficiency
-
-RESULT = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
-STEP_SECONDS = 0.05
-WAIT_LIMIT_SECONDS = 240  # only what hangs takes as long
-#: Where things are in the sidebar of Blender 3.4.1's UV editor, in pixels from its right and top edge.
-TAB = (10, 130)
-SEAMS = (84, 156)
-BUTTON = (122, 80)
-TAB_3D = 138  # the same tab in the 3D view, from the top edge, where no object is active
-ROW = 23
-
-
-def slow_mesh():
-    """Takes the engine several seconds."""
-    return add_mesh(shapes.slow(), name="Slow")
-
-
-def window():
-    return bpy.context.window_manager.windows[0]
-
-
-def uv_editor():
-    return next(area for area in window().screen.areas if area.type == "IMAGE_EDITOR")
-
-
-def tasks():
-    return sys.modules[f"{MODULE}.tasks"]
-
-
-def point(offset):
-    region = next(region for region in uv_editor().regions if region.type == "UI")
-    return region.x + region.width - offset[0], region.y + region.height - offset[1]
-
-
-def click(offset):
-    yield from click_at(*point(offset))
-
-
-def click_at(x, y):
-    window().event_simulate("MOUSEMOVE", "NOTHING", x=x, y=y)
-    yield 0.2
-    window().event_simulate("LEFTMOUSE", "PRESS", x=x, y=y)
-    yield 0.1
-    window().event_simulate("LEFTMOUSE", "RELEASE", x=x, y=y)
-    yield 0.2
-
-
-def key(name, over=None, **modifiers):
-    x, y = over or point(BUTTON)
-    window().event_simulate(name, "PRESS", x=x, y=y, **modifiers)
-    yield 0.05
-    window().event_simulate(name, "RELEASE", x=x, y=y, **modifiers)
-
-
-def picture(name):
-    subprocess.run(["import", "-window", "root", RESULT.with_name(f"window-{name}.png")], check=False, env=os.environ)
-
-
-def uvs(obj):
-    return get_uvs(obj.data.uv_layers.active)
-
-
-def mesh_size(name):
-    mesh = bpy.data.objects[name].data
-    return len(mesh.polygons), len(mesh.vertices)
-
-
-def faces_in_edit_mode(name):
-    return len(bmesh.from_edit_mesh(bpy.data.objects[name].data).faces)
-
-
-def until(condition, otherwise):
-    """Waits for what an event brings about."""
-    began = time.monotonic()
-    while not condition():
-        assert time.monotonic() - began < WAIT_LIMIT_SECONDS, otherwise
-        yield STEP_SECONDS
-
-
-def running():
-    return tasks().running is not None
-
-
-def enter_edit_mode():
-    """With everything selected."""
-    bpy.context.scene.tool_settings.use_uv_select_sync = True
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-
-
-def start(obj, pe_bound=0.8):
-    bpy.context.view_layer.objects.active = obj
-    bpy.context.scene.atlas_refine.pe_bound = pe_bound
-    uv_editor().tag_redraw()
-    yield 0.3
-    yield from click(BUTTON)
-
-
-def prepare():
-    for obj in list(bpy.data.objects):
-        bpy.data.objects.remove(obj)
-    area = max(window().screen.areas, key=lambda area: area.width * area.height)
-    area.ui_type = "UV"
-    area.spaces.active.show_region_ui = True
-    yield 1.0
-    yield from click(TAB)
-    yield 0.5
+from driver import (
+    BUTTON,
+    RESULT,
+    ROW,
+    SEAMS,
+    STEP_SECONDS,
+    TAB,
+    TAB_3D,
+    click,
+    click_at,
+    enter_edit_mode,
+    faces_in_edit_mode,
+    key,
+    mesh_size,
+    picture,
+    prepare,
+    running,
+    slow_mesh,
+    start,
+    tasks,
+    until,
+    uv_editor,
+    uvs,
+    window,
+)
+from support import add_mesh, enable_addon, packing_efficiency
 
 
 def test_the_tab_shows_the_panel():
@@ -319,26 +235,15 @@ def test_another_file_ends_a_run():
     assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
 
 
-def wait(step):
-    """One step of a generator as seconds to wait."""
-    if not callable(step):
-        yield step
-        return
-    began = time.monotonic()
-    while not step():
-        if time.monotonic() - began > WAIT_LIMIT_SECONDS:
-            raise TimeoutError("waited in vain")
-        yield STEP_SECONDS
-
-
 def drive():
-    tests = [value for name, value in globals().items() if name.startswith("test_")]
+    found = {**vars(overlay_tests), **globals()}
+    tests = [test for name, test in found.items() if name.startswith("test_") and driver.WORD in name]
     counts = {"passed": 0, "failed": 0, "skipped": []}
     yield 1.0
     for test in [prepare, *tests]:
         try:
             for step in test():
-                yield from wait(step)
+                yield from driver.wait(step)
             print(f"{test.__name__} ... ok", flush=True)
             counts["passed"] += test is not prepare
         except Exception:

@@ -1,4 +1,5 @@
-"""Runs drive.py in a real Blender window on a virtual screen: run.py BLENDER RESULT.json. Screenshots go beside the result."""
+"""Runs drive.py in a real Blender window on a virtual screen: run.py BLENDER RESULT.json [WORD]. Screenshots go beside the result;
+only tests whose names hold the word are run."""
 
 import os
 import pathlib
@@ -25,7 +26,7 @@ def start_screen():
     return server, f":{number}"
 
 
-def main(blender, result):
+def main(blender, result, *word):
     (archive,) = (ROOT / "dist").glob("atlas_refine-*.zip")
     server, display = start_screen()
     try:
@@ -35,7 +36,7 @@ def main(blender, result):
             install += ["--python", HERE.parent / "install_addon.py", "--", archive]
             subprocess.run(install, env=environment, check=True)
             drive = [blender, "--factory-startup", "--enable-event-simulate", "--window-geometry", "0", "0", *SIZE]
-            drive += ["--python", HERE / "drive.py", "--", result]
+            drive += ["--python", HERE / "drive.py", "--", result, *word]
             return subprocess.run(drive, env=environment, check=False, timeout=TIMEOUT_SECONDS).returncode
     finally:
         server.terminate()
@@ -43,4 +44,4 @@ def main(blender, result):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], sys.argv[2]))
+    sys.exit(main(*sys.argv[1:]))

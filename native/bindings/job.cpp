@@ -43,10 +43,10 @@ void Job::stop_all() {
 }
 
 void Job::run() {
-  const ProgressFn report = [this](const Progress& progress) {
+  const ProgressFn report = [this](const Progress& progress) -> Answer {
     const std::lock_guard lock(mutex_);
     progress_ = progress;
-    return !cancelled_;
+    return cancelled_ ? Answer::Cancel : finishing_ ? Answer::Finish : Answer::GoOn;
   };
   std::optional<RefineResult> result;
   std::exception_ptr error;
@@ -110,6 +110,10 @@ void bind_job(py::module_& module) {
       .def_property_readonly("done", &Job::done, "True once result() returns at once.")
       .def_property_readonly("progress", &Job::progress, "The latest Progress; its stage is \"done\" once there is a result.")
       .def("cancel", &Job::cancel, "Asks the job to stop; returns at once, the job ends within half a second.")
+      .def("finish", &Job::finish,
+           "Asks the job for the best valid atlas so far; returns at once. Where that is not better than the input, result() is "
+           "the "
+           "input, unchanged. The result's `ended` is \"stopped\".")
       .def(
           "wait", [](const Job& job, std::optional<double> timeout) { return job.wait(timeout ? std::max(*timeout, 0.0) : -1); },
           py::arg("timeout") = py::none(), ReleaseGil(),

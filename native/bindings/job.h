@@ -24,6 +24,7 @@ class Job {
   bool done() const;
   Progress progress() const;
   void cancel() { cancelled_ = true; }
+  void finish() { finishing_ = true; }
   /// Waits at most `seconds` (for ever where negative); true where the job is done.
   bool wait(double seconds) const;
   /// Waits for the end; throws what the call threw.
@@ -38,7 +39,7 @@ class Job {
 
   const Atlas atlas_;
   const RefineOptions options_;
-  std::atomic<bool> cancelled_ = false;
+  std::atomic<bool> cancelled_ = false, finishing_ = false;
   mutable std::mutex mutex_;
   mutable std::condition_variable finished_;
   Progress progress_{"input", 0.0, 0.0};

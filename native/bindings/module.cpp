@@ -21,7 +21,7 @@ namespace {
 
 const std::string kRefineKeywords =
     "pe_bound seams box_aspect in_texture gap gap_unit max_distortion max_boundary_growth seam_cost effort trade_off point relax "
-    "best_effort density stored sigma candidates omega "
+    "best_effort density uv_density stored sigma candidates omega "
     "until_input "
     "reference importance seed threads name cut open_closed stacks collapsed rotate align_axes triangulate groups group_origins "
     "group_names keep_shape locked no_seam prefer_seam triangles";
@@ -60,6 +60,8 @@ best_effort      where the bound is not reached return the best valid atlas with
                  "needed" seams the least distorted one; default False
 density          "equal" (default): one scale for all charts; "keep": each chart its own, as far as bending leaves it that; a
                  warning names those whose texel density changed by more than 10 %
+uv_density       of a free box: the size of the result as sqrt(UV area / surface area), UV units per model unit; it may reach
+                 beyond [0, 1]^2 then. 0 (default): the longer side of the box is 1
 sigma            of "rectangles": width of the boundary smoothing as a part of a chart's boundary, in (0, 0.1]; default 0.004
 candidates       of "rectangles": layouts that are packed and scored, at least 1; default 500
 omega            of "rectangles": what added boundary costs against packing efficiency, in [0, 1]; default 0.1
@@ -95,14 +97,17 @@ class ProgressCallback {
   explicit ProgressCallback(py::object function) : function_(std::move(function)) {}
 
   ProgressFn adapter() {
-    return [this](const Progress& progress) {
+    return [this](const Progress& progress) -> Answer {
       const py::gil_scoped_acquire gil;
       try {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();  // Ctrl-C stops a run without a callback too
-        return function_.is_none() || !function_(progress).is(py::bool_(false));
+        if (function_.is_none()) return Answer::GoOn;
+        const py::object answer = function_(progress);
+        if (py::isinstance<py::str>(answer) && answer.cast<std::string>() == "finish") return Answer::Finish;
+        return !answer.is(py::bool_(false));
       } catch (...) {
         raised_ = std::current_exception();
-        return false;
+        return Answer::Cancel;
       }
     };
   }
@@ -225,7 +230,8 @@ PYBIND11_MODULE(_atlas_refine, module) {
       module, "refine", &call_refine,
       "Brings an atlas to a packing efficiency bound and returns a RefineResult; the arrays are left alone." + arrays +
           kRefineOptionsDoc +
-          "progress         called with a Progress several times a second; returning False cancels, what it raises comes out\n" +
+          "progress         called with a Progress several times a second; returning False cancels, what it raises comes out;\n"
+          "                 \"finish\" ends with the best valid atlas so far, or the input where that is no better\n" +
           raises);
   define(module, "start", &start, "refine() in the background: returns a Job at once." + arrays + kRefineOptionsDoc + raises);
   define(module, "measure", &call_measure,

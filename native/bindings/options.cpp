@@ -144,6 +144,7 @@ std::map<std::string, Reader> make_readers() {
        [](Keywords& k, H v, S s) {
          k.options.density = choice<Density>(v, s, {{"equal", Density::Equal}, {"keep", Density::Keep}});
        }},
+      {"uv_density", [](Keywords& k, H v, S s) { k.options.uv_density = number(v, s); }},
       {"stored",
        [](Keywords& k, H v, S s) {
          k.options.stored = choice<Stored>(v, s, {{"double", Stored::Double}, {"float32", Stored::Float32}});

@@ -24,25 +24,43 @@ bool within_limit(const RefineOptions& options, double distortion) {
   return !options.max_distortion || distortion <= *options.max_distortion * (1 + 1e-9);
 }
 
-/// The input is valid and at the bound; a gap counts only where one was asked for. `within`: options for the box within the
-/// border.
+/// The UVs are as large as is asked, if anything is.
+bool has_density(const InputAtlas& input, const RefineOptions& options) {
+  constexpr double kRounding = 1e-5;  // of UVs in single precision
+  if (options.uv_density == 0) return true;
+  double surface = 0;
+  for (const Chart& chart : input.set.charts) surface += chart.surface.area();
+  const double density = std::sqrt(uv_area(input.set.charts) / surface);
+  return std::abs(density / options.uv_density - 1) < kRounding;
+}
+
+/// Valid and, where the box is the texture, within its border: only then PE tells how good it is.
+bool is_sound(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options, const RefineOptions& within) {
+  if (!validate_split(input.set, freedom).valid()) return false;
+  const double slack = border_of(options) > 0 ? 2 * kBorderSpare : 0;
+  return !is_in_texture(freedom, options) || lies_in_texture(charts_as_placed(input.set), freedom, within.box_aspect, slack);
+}
+
+/// The input is, but for its size, sound and at the bound; a gap counts only where one was asked for. `within`: options for the
+/// box within the border.
 bool holds_already(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options, const RefineOptions& within) {
   const Measures& before = input.measures;
   if (before.pe_fixed_aspect < options.pe_bound || !within_limit(options, before.distortion)) return false;
-  if (!validate_split(input.set, freedom).valid()) return false;
-  const bool framed = is_in_texture(freedom, options);
-  const double border = border_of(options), slack = border > 0 ? 2 * kBorderSpare : 0;
-  if (framed && !lies_in_texture(charts_as_placed(input.set), freedom, within.box_aspect, slack)) return false;
-  const double aspect = options.box_aspect;
-  const Vec2 box = framed ? Vec2(aspect, 1) : box_of_aspect(uv_box(input.set.charts), aspect).size();
+  if (!is_sound(input, freedom, options, within)) return false;
+  const double aspect = options.box_aspect, border = border_of(options);
+  const Vec2 box = is_in_texture(freedom, options) ? Vec2(aspect, 1) : box_of_aspect(uv_box(input.set.charts), aspect).size();
   return !options.gap || (1 - 2 * border) * gap_between_charts(input.set.charts, freedom) >= options.gap->length(box);
+}
+
+/// An automatic gap asks nothing of an atlas that is left as it is.
+Gap own_gap(const InputAtlas& input, const RefineOptions& options) {
+  return options.gap.value_or(Gap{std::min(Gap{}.value, input.measures.gap_between)});
 }
 
 Outcome unchanged(const InputAtlas& input, const RefineOptions& options) {
   Outcome out{
       .before = input.measures, .after = input.measures, .triangulations = count_readings(input.set.readings), .bound_met = true};
-  // An automatic gap asks nothing of an atlas that is left as it is.
-  out.gap = options.gap.value_or(Gap{std::min(Gap{}.value, input.measures.gap_between)});
+  out.gap = own_gap(input, options);
   out.charts = reports_of_input(input);
   return out;
 }
@@ -62,6 +80,7 @@ struct CertifiedSolution {
 
 CertifiedSolution certified(const Refinement& run, Solution solution, const ProgressRange& range) {
   run.journal.begin_stage("certify", range.part(0.96, 0.98));
+  if (run.monitor.finishing()) solution.ended = Ended::Stopped;
   restore_shapes(run.input.set.charts, freedom_of(run.input.set, run.options), solution.atlas);
   // Of the whole texture, where the gap was that of the box within its border.
   if (border_of(run.asked) > 0) solution.gap = *run.asked.gap;
@@ -82,12 +101,23 @@ std::optional<double> distortion_of_whole(const Refinement& run, double most) {
 /// Where the charts would have been better off without cuts at the same bound, the warnings say so.
 void compare_with_whole(const Refinement& run, const CertifiedSolution& cut, const ProgressRange& range) {
   constexpr double kWorthTelling = 1e-4;  // of E_d
+  if (run.monitor.finishing()) return;
   run.journal.begin_stage("compare", range.part(0.98, 1));
   const double own = cut.atlas.after.distortion;
   const auto whole = distortion_of_whole(run, own - kWorthTelling);
   if (!whole) return;
   run.journal.warnings.push_back("without cuts the charts hold the same bound with less distortion: E_d " +
                                  number_text("%.4f", *whole) + " against " + number_text("%.4f", own));
+}
+
+/// Nothing is asked of an input that holds already, but another size. Charts that are turned over need places of their own.
+bool is_only_scaled(const InputAtlas& input, const RefineOptions& options) {
+  const auto& mirrored = input.set.mirrored;
+  return !options.relax && std::find(mirrored.begin(), mirrored.end(), true) == mirrored.end();
+}
+
+Solution as_it_lies(const InputAtlas& input, const RefineOptions& options) {
+  return {.atlas = whole_atlas(input.set.charts), .gap = own_gap(input, options)};
 }
 
 /// The road that cuts; nothing where charts are better left whole, which the journal then says.
@@ -164,7 +194,8 @@ Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, Certif
   out.bound_met = missed.empty();
   // Where cuts are allowed a limit of distortion is a goal like the bound, else it is what the effort must keep.
   const bool acceptable = options.seams == Seams::Needed || within_limit(options, out.after.distortion);
-  if (!out.bound_met && !(options.best_effort && acceptable)) throw RefineError(ErrorCode::BoundNotReached, "squeeze", missed);
+  const bool takes_less = options.best_effort || out.ended == Ended::Stopped;
+  if (!out.bound_met && !(takes_less && acceptable)) throw RefineError(ErrorCode::BoundNotReached, "squeeze", missed);
   for (int c : solution.re_embedded) out.charts[c].re_embedded = true;
   out.atlas = std::move(solution.atlas);
   out.uvs = std::move(certified.atlas.uvs);
@@ -193,8 +224,26 @@ void warn_of_density(const InputAtlas& input, const RefineOptions& options, cons
 void warn_of_early_end(const Solution& solution, Journal& journal) {
   const char* why = solution.ended == Ended::Stalled           ? "stalled"
                     : solution.ended == Ended::OutOfIterations ? "ran out of iterations"
+                    : solution.ended == Ended::Stopped         ? "was stopped"
                                                                : nullptr;
   if (why) journal.warnings.push_back(std::string("the optimisation ") + why + ": the distortion may not be at its least");
+}
+
+/// True where an atlas that was stopped at is worth more than the input.
+bool better_than_input(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options,
+                       const RefineOptions& within, const Measures& after) {
+  if (!within_limit(options, after.distortion)) return false;
+  return after.pe_fixed_aspect >= options.pe_bound || after.pe_fixed_aspect > input.measures.pe_fixed_aspect ||
+         !is_sound(input, freedom, options, within);
+}
+
+/// Stopped before anything better than the input was found.
+Outcome stopped(const InputAtlas& input, const RefineOptions& options, bool holds, Journal& journal) {
+  const std::string why = "stopped before a better atlas was found";
+  journal.warnings.push_back(why + ": it is left as it is");
+  Outcome out = holds ? unchanged(input, options) : left_as_it_is(input, options, why);
+  out.ended = Ended::Stopped;
+  return out;
 }
 
 /// There is nothing to move.
@@ -232,12 +281,20 @@ Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const 
   note_mirrored(input, journal);
   const Freedoms freedom = freedom_of(input.set, options);
   const RefineOptions within = within_border(options);
-  const bool holds = holds_already(input, freedom, options, within);
+  const bool holds_but_size = holds_already(input, freedom, options, within);
+  const bool holds = holds_but_size && has_density(input, options);
   if (holds && !options.relax) return unchanged(input, options);
   if (all_fixed(freedom)) return all_locked(input, options, holds);
+  if (monitor.finishing()) return stopped(input, options, holds, journal);
 
   const Refinement run{input, within, monitor, journal, resolve_threads(options.threads), options};
-  CertifiedSolution result = solve(run, range);
+  const Journal::Mark before = journal.mark();
+  CertifiedSolution result =
+      holds_but_size && is_only_scaled(input, options) ? certified(run, as_it_lies(input, options), range) : solve(run, range);
+  if (result.solution.ended == Ended::Stopped && !better_than_input(input, freedom, options, within, result.atlas.after)) {
+    journal.back_to(before);
+    return stopped(input, options, holds, journal);
+  }
   if (holds && result.atlas.after.distortion >= input.measures.distortion) return unchanged(input, options);
   journal.show(to_string(result.solution.intervention), result.atlas.stored);
   warn_of_early_end(result.solution, journal);

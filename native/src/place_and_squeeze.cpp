@@ -149,7 +149,7 @@ PlacedCharts place_with(const Refinement& run, const std::vector<Chart>& charts,
   constexpr double kPromising = 0.99;  // of the bound
   PlacedCharts placed = place(run, charts, freedom, gaps.front(), good_enough);
   if (!none_bends(freedom) || holds_bound(run, placed, kRounding)) return placed;
-  for (std::size_t k = 1; k < gaps.size(); ++k) {
+  for (std::size_t k = 1; k < gaps.size() && !run.monitor.finishing(); ++k) {
     if (likely_pe(run, placed, freedom, gaps.front(), gaps[k]) < kPromising * run.options.pe_bound) continue;
     PlacedCharts closer = place(run, charts, freedom, gaps[k], run.options.pe_bound);
     if (!holds_bound(run, closer, kRounding)) continue;
@@ -222,7 +222,8 @@ std::optional<Solution> place_and_squeeze_cut(const Refinement& run, const CutAt
   RefineOptions options = run.options;
   options.relax = options.relax || !options.rectangles.until_input;
   Solution out = place_and_squeeze({run.input, options, run.monitor, run.journal, run.threads, run.asked}, cut, false, range);
-  if (!holds_bound(run, {.charts = meshes_of(out.atlas), .frame = out.atlas.frame})) return std::nullopt;
+  const bool holds = holds_bound(run, {.charts = meshes_of(out.atlas), .frame = out.atlas.frame});
+  if (!holds && !run.monitor.finishing()) return std::nullopt;
   out.intervention = Intervention::Cut;
   return out;
 }

@@ -130,8 +130,10 @@ ReduceResult reduce(const Refinement& run, const Gap& gap, double least_change, 
                               .max_distortion = run.options.max_distortion.value_or(0),
                               .threads = run.threads,
                               .freedom = freedom};
-  ReduceResult reduced = reduce_distortion(
-      problem, [&](const ReduceProgress& progress) { run.monitor.report(1 - 1 / (1 + 0.1 * progress.iteration), progress.pe); });
+  ReduceResult reduced = reduce_distortion(problem, [&](const ReduceProgress& progress) {
+    run.monitor.report(1 - 1 / (1 + 0.1 * progress.iteration), progress.pe);
+    return !run.monitor.finishing();
+  });
   run.journal.iterations += reduced.iterations;
   cut = with_uvs(std::move(cut), reduced.uvs);
   return reduced;
@@ -200,18 +202,29 @@ Attempt cut_across_faces(const Refinement& run, const CutPlan& plan, const Progr
   return {.solution = std::move(out)};
 }
 
+/// Before charts are cut there is nothing to keep: whole, they have a valid atlas sooner.
+std::optional<CutPlan> plan_unless_finishing(const Refinement& run, const ProgressRange& range) {
+  const Monitor::Worthless plan(run.monitor);
+  try {
+    return plan_cuts(run, range);
+  } catch (const Monitor::GivenUp&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) {
   const bool along_edges = run.options.cut == Cut::Edges;
   if (std::string why = obstacle(run); !why.empty()) return {.failure = std::move(why)};
-  CutPlan plan = plan_cuts(run, range.part(0, 0.45));
+  std::optional<CutPlan> plan = plan_unless_finishing(run, range.part(0, 0.45));
+  if (!plan) return {.failure = "the work was stopped before"};
   if (run.journal.draws()) {
-    for (const auto& picture : rectangle_pictures(plan.charts, plan.aligned, plan.layout.trails, run.options.rectangles.sigma))
+    for (const auto& picture : rectangle_pictures(plan->charts, plan->aligned, plan->layout.trails, run.options.rectangles.sigma))
       run.journal.show(picture);
   }
-  return along_edges ? cut_along_edges(run, std::move(plan), range.part(0.45, 1))
-                     : cut_across_faces(run, plan, range.part(0.45, 1));
+  return along_edges ? cut_along_edges(run, std::move(*plan), range.part(0.45, 1))
+                     : cut_across_faces(run, *plan, range.part(0.45, 1));
 }
 
 }  // namespace atlas_refine

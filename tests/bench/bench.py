@@ -7,6 +7,9 @@ row with the program's own reason. Exit code 0 where every row is ok (or nothing
 --real: instead every atlas of uv/ as it was found and every mesh of no_uv/ after Blender's Smart UV Project, at 0.80: how each ends;
 exit code 1 where one crashes, hangs or is not valid.
 
+--blender: instead the files of uv/atlas-clean inside Blender at 0.80 of a square, beside Blender's own Pack Islands (exact shapes,
+any rotation) at the same margin; blender.json, blender.md.
+
 --against COMMIT: that commit is built beside this tree, both programs run one after the other on every file, and what differs is
 the table (against.json, against.md); exit code 1 where a file is no longer valid and at its bound, or has more E_d.
 
@@ -24,6 +27,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import against
+import in_blender
 import real
 import studies
 import table
@@ -59,7 +63,8 @@ def selected_meshes(arguments):
     if arguments.meshes:
         found = own_meshes(arguments.meshes)
     else:
-        folders = FOLDERS if arguments.study else arguments.folders or (REAL_FOLDERS if arguments.real else FOLDERS)
+        usual = REAL_FOLDERS if arguments.real else ["atlas-clean"] if arguments.blender else FOLDERS
+        folders = FOLDERS if arguments.study else arguments.folders or usual
         found = folder_meshes(mesh_root(ROOT.parent / "shared"), folders)
     for folder, paths in found.items():
         kept = [path for path in paths if fnmatch.fnmatch(path.stem, arguments.files)]
@@ -160,6 +165,11 @@ def run_real(arguments):
     )
 
 
+def run_blender(arguments):
+    bound = (arguments.bounds or GOALS)[0].bound
+    return in_blender.run_blender(each_mesh(arguments), bound, arguments.cache, arguments.build, arguments.out)
+
+
 def run_bad_input(arguments):
     lines, wrong = bad_input_lines(arguments.build / "atlas-refine")
     print("\n".join(lines))
@@ -189,6 +199,7 @@ def parsed():
         "--old-options", type=options, default=(), help="further options of the commit's program, as --old-options=..."
     )
     parser.add_argument("--new-options", type=options, default=(), help="further options of this tree's program")
+    parser.add_argument("--blender", action="store_true", help="instead: inside Blender, beside its own Pack Islands")
     parser.add_argument("--determinism", action="store_true", help="instead: the same bits from 2 runs and from 1 and 2 threads")
     parser.add_argument("--bad-input", action="store_true", help="instead: exit codes and messages of bad input")
     parser.add_argument("--study", choices=studies.NAMES, help="instead: one of the paper's studies, its figures beside ours")
@@ -214,6 +225,8 @@ def run_asked(arguments):
     arguments.out.mkdir(parents=True, exist_ok=True)
     if arguments.real:
         return run_real(arguments)
+    if arguments.blender:
+        return run_blender(arguments)
     if arguments.study:
         return studies.run_study(arguments.study, arguments, arguments.found.get)
     return (run_against if arguments.against else run_table)(arguments, arguments.out)
@@ -223,7 +236,8 @@ def main():
     arguments = parsed()
     try:
         arguments.found = {} if arguments.bad_input else selected_meshes(arguments)
-        arguments.build = arguments.build.resolve() if arguments.build else trees.build_own(ROOT)
+        targets = [trees.PYTHON] if arguments.blender else []
+        arguments.build = arguments.build.resolve() if arguments.build else trees.build_own(ROOT, *targets)
         trees.require_built(arguments.build, trees.PROGRAM, *([] if arguments.real else [trees.HELPER]))
         return 1 if run_asked(arguments) else 0
     except (NoMeshesError, trees.TreeError) as why:

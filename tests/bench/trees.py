@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 
 PROGRAM, HELPER = "atlas-refine", "atlas_refine_bench"
+PYTHON = "atlas_refine_python"  # a target, not a file
 
 
 class TreeError(Exception):
@@ -53,8 +54,11 @@ def build(tree, configure, targets):
     return tree / "build"
 
 
-def build_own(root):
-    return build(root, ["--preset", "release"], [PROGRAM, HELPER])
+def build_own(root, *more):
+    found = build(root, ["--preset", "release"], [PROGRAM, HELPER])
+    if more:
+        run(["cmake", "--build", "build", "--target", *more], "building", cwd=root, stdout=2)
+    return found
 
 
 def build_commit(commit, root, cache):

@@ -55,3 +55,31 @@ def test_a_job_that_nobody_waits_for_stops_with_its_object_and_with_the_process(
         process.returncode = os.waitstatus_to_exitcode(status)
     assert process.returncode == 0
     assert usage.ru_utime + usage.ru_stime < 3.0
+
+
+def stopped(job):
+    """Its result, asked for once the charts bend."""
+    while job.progress.stage != "squeeze" or job.progress.pe < 0.3:
+        assert not job.done
+        job.wait(0.01)
+    job.finish()
+    return job.result()
+
+
+def test_a_job_that_is_finished_early_has_the_best_atlas_so_far():
+    arrays = shapes.slow()
+    result = stopped(atlas_refine.start(*arrays, pe_bound=0.999, threads=1))
+    assert result.ended == "stopped"
+    assert not result.bound_met
+    assert any("stopped" in warning for warning in result.warnings)
+    assert result.after.pe > result.before.pe
+    assert atlas_refine.validate(*arrays[:3], result.corner_uvs).valid
+
+
+def test_a_callback_may_finish_as_well_and_what_is_no_better_leaves_the_input():
+    arrays = shapes.slow()
+    result = atlas_refine.refine(*arrays, pe_bound=0.95, progress=lambda _: "finish")
+    assert result.ended == "stopped"
+    assert result.after.pe >= result.before.pe
+    if result.intervention == "unchanged":
+        assert result.corner_uvs.tobytes() == arrays[3].tobytes()

@@ -177,3 +177,28 @@ def test_relax_goes_on_to_the_least_distortion_under_the_bound():
     assert (plain.intervention, relaxed.intervention) == ("moved", "squeezed")
     assert relaxed.after.pe >= 0.6
     assert relaxed.after.distortion < plain.after.distortion
+
+
+def uv_area(arrays, uvs):
+    """Of quads."""
+    u, v = np.moveaxis(uvs.reshape(-1, 4, 2), 2, 0)
+    return 0.5 * np.sum(u * np.roll(v, -1, axis=1) - np.roll(u, -1, axis=1) * v)
+
+
+def test_a_free_box_takes_the_density_that_is_asked():
+    arrays = shapes.loose()
+    plain = atlas_refine.refine(*arrays, pe_bound=0.8)
+    for density in (0.01, 7.0):
+        result = atlas_refine.refine(*arrays, pe_bound=0.8, uv_density=density, stored="float32")
+        assert result.after.pe >= 0.8
+        assert np.sqrt(uv_area(arrays, result.corner_uvs) / sum(chart.area for chart in result.charts)) == pytest.approx(density)
+        assert result.after.distortion == pytest.approx(plain.after.distortion, rel=1e-5)
+        assert result.corner_uvs.min() >= 0
+        again = atlas_refine.refine(*arrays[:3], result.corner_uvs, pe_bound=0.8, uv_density=density, stored="float32")
+        assert again.intervention == "unchanged"
+        other = atlas_refine.refine(*arrays[:3], result.corner_uvs, pe_bound=0.8, uv_density=2 * density)
+        assert other.intervention == "moved"
+        assert other.corner_uvs == pytest.approx(2 * result.corner_uvs, rel=1e-5, abs=1e-6 * result.corner_uvs.max())
+    for other in ({"in_texture": True}, {"box_aspect": 1.0}, {"locked": faces_of(0, 48)}):
+        with pytest.raises(atlas_refine.AtlasRefineError, match="needs a free box"):
+            atlas_refine.refine(*arrays, uv_density=1.0, **other)

@@ -86,6 +86,7 @@ TEST(Reduce, FromAboveTheTargetDistortionFallsAndTheBoundHolds) {
     const ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
       lowest_pe = std::min(lowest_pe, progress.pe);
       last = progress.energy;
+      return true;
     });
     EXPECT_EQ(result.status, ReduceStatus::Converged);
     EXPECT_TRUE(result.reached);
@@ -211,9 +212,27 @@ TEST(Reduce, AMonitorThatThrowsCancels) {
   const auto stop = [&](const ReduceProgress& progress) {
     EXPECT_EQ(progress.iteration, calls);
     if (++calls == 4) throw std::domain_error("enough");
+    return true;
   };
   EXPECT_THROW(reduce_distortion({.charts = charts, .pe_target = 0.9}, stop), std::domain_error);
   EXPECT_EQ(calls, 4);
+}
+
+TEST(Reduce, AMonitorThatStopsGetsTheBestStateSoFar) {
+  const std::vector<Chart> charts = s_chart();
+  ReduceProblem problem{.charts = charts, .pe_target = 0.9};
+  const auto stop_at_5 = [](const ReduceProgress& progress) { return progress.iteration < 5; };
+  const ReduceResult stopped = reduce_distortion(problem, stop_at_5), again = reduce_distortion(problem, stop_at_5);
+  EXPECT_EQ(stopped.status, ReduceStatus::Stopped);
+  EXPECT_EQ(stopped.iterations, 5);
+  EXPECT_FALSE(stopped.reached);
+  EXPECT_TRUE(testing::same_bits(stopped.uvs[0], again.uvs[0]));
+  checked(problem, stopped);
+  const ReduceResult at_once = reduce_distortion(problem, [](const ReduceProgress&) { return false; });
+  EXPECT_EQ(at_once.iterations, 0);
+  EXPECT_LT(at_once.pe, stopped.pe);
+  problem.max_iterations = 5;
+  EXPECT_TRUE(testing::same_bits(stopped.uvs[0], reduce_distortion(problem).uvs[0]));
 }
 
 TEST(Reduce, TheBitsDoNotDependOnTheThreads) {

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "charts.h"
+#include "coarsen/coarse_atlas.h"
+#include "measure/certificate.h"
 #include "shapes.h"
 
 namespace atlas_refine {
@@ -36,6 +40,36 @@ TEST(Squeeze, ReducesTheGapOnlyAsFarAsNeeded) {
   EXPECT_GE(gap_between_charts(after), squeezed.gap.length(testing::box_sides(after)) * (1 - 1e-9));
   options.pe_bound = 0.6;
   EXPECT_EQ(squeeze({{charts}}, make_objective(charts), options, monitor).gap.value, 0.03);
+}
+
+TEST(Squeeze, EndsWithTheBestStartWhereItIsToFinish) {
+  const std::vector<Chart> upright = charts_of(shapes::mesh(shapes::u_shape(), 0.1));
+  const std::vector<Chart> tilted = charts_of(shapes::mesh(shapes::transformed(shapes::u_shape(), 1, 0.8, {0, 0}), 0.1));
+  Monitor monitor;
+  monitor.finish();
+  const SqueezeOptions options{.pe_bound = 0.95, .gaps = {Gap{}, Gap{0.001}}};
+  const Squeezed squeezed = squeeze({{tilted}, {upright}}, make_objective(upright), options, monitor);
+  EXPECT_EQ(squeezed.outcome.status, ReduceStatus::Stopped);
+  EXPECT_EQ(squeezed.iterations, 0);
+  EXPECT_EQ(squeezed.gap.value, Gap{}.value);
+  EXPECT_NEAR(squeezed.outcome.pe, testing::packing_efficiency(upright), 1e-9);
+}
+
+// Coarse charts that are stopped on their way are carried over as far as they came.
+TEST(Squeeze, WhatCoarseChartsHaveReachedIsNotLostWhereItIsToFinish) {
+  const std::vector<Chart> charts = charts_of(shapes::mesh(shapes::spiral(3), 0.01));
+  ASSERT_TRUE(coarsen(charts, make_objective(charts), {}));
+  const double pe_at_start = testing::packing_efficiency(charts);
+  Monitor monitor;
+  std::jthread user([&] {
+    while (monitor.snapshot().pe < pe_at_start + 0.1) std::this_thread::yield();
+    monitor.finish();
+  });
+  const Squeezed squeezed = squeeze({{charts}}, make_objective(charts), {.pe_bound = 0.999, .gaps = {Gap{}}}, monitor);
+  EXPECT_EQ(squeezed.outcome.status, ReduceStatus::Stopped);
+  EXPECT_FALSE(squeezed.outcome.reached);
+  EXPECT_GT(squeezed.outcome.pe, pe_at_start + 0.08);
+  EXPECT_TRUE(certify_charts(testing::with_uvs(charts, squeezed.outcome.uvs)).valid());
 }
 
 TEST(AutomaticGaps, StartWithTheLargestThatTheBoundCanHold) {

@@ -99,6 +99,29 @@ TEST(Monitor, EveryReportThrowsOnceCancelled) {
   EXPECT_THROW(monitor.begin_stage("squeeze", 0, 1), RefineError);
 }
 
+TEST(Monitor, FinishEndsOnlyWhatIsWorthless) {
+  Monitor monitor;
+  EXPECT_FALSE(monitor.finishing());
+  monitor.finish();
+  EXPECT_TRUE(monitor.finishing());
+  monitor.report(0.5);
+  {
+    const Monitor::Worthless plan(monitor);
+    EXPECT_THROW(monitor.check(), Monitor::GivenUp);
+    EXPECT_THROW(monitor.begin_stage("layout", 0, 1), Monitor::GivenUp);
+  }
+  monitor.check();
+}
+
+TEST(Monitor, TheCallbacksAnswerFinishes) {
+  bool finishing = false;
+  run_monitored([](const Progress&) { return Answer::Finish; },
+                [&](Monitor& monitor) {
+                  for (int k = 0; k < 1000 && !finishing; ++k, wait_ms(10)) finishing = monitor.finishing();
+                });
+  EXPECT_TRUE(finishing);
+}
+
 TEST(Monitor, ExceptionsOfEitherSideComeOut) {
   const auto go_on = [](const Progress&) { return true; };
   EXPECT_THROW(run_monitored(go_on, [](Monitor&) { throw std::out_of_range("work"); }), std::out_of_range);

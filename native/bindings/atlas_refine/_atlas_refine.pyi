@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __version__: str
-_Ended: TypeAlias = Literal["not_run", "at_optimum", "enough", "stalled", "out_of_iterations", "distortion_limit"]
+_Ended: TypeAlias = Literal["not_run", "at_optimum", "enough", "stalled", "out_of_iterations", "distortion_limit", "stopped"]
 
 class AtlasRefineError(RuntimeError):
     code: Literal["bad_option", "bad_input", "bound_not_reached", "not_certified", "cancelled"]
@@ -306,6 +306,7 @@ class Job:
     @property
     def progress(self) -> Progress: ...
     def cancel(self) -> None: ...
+    def finish(self) -> None: ...  # with the best valid atlas so far
     def wait(self, timeout: float | None = None) -> bool: ...
     def result(self) -> RefineResult: ...
 
@@ -330,6 +331,7 @@ def refine(
     relax: bool = False,
     best_effort: bool = False,
     density: Literal["equal", "keep"] = "equal",
+    uv_density: float = 0.0,
     stored: Literal["double", "float32"] = "double",
     sigma: float = 0.004,
     candidates: int = 500,
@@ -354,7 +356,7 @@ def refine(
     triangles: ArrayLike | None = None,
     seed: int = 1,
     threads: int = 0,
-    progress: Callable[[Progress], bool | None] | None = None,
+    progress: Callable[[Progress], bool | Literal["finish"] | None] | None = None,
     name: str = "",
 ) -> RefineResult: ...
 def start(
@@ -378,6 +380,7 @@ def start(
     relax: bool = False,
     best_effort: bool = False,
     density: Literal["equal", "keep"] = "equal",
+    uv_density: float = 0.0,
     stored: Literal["double", "float32"] = "double",
     sigma: float = 0.004,
     candidates: int = 500,

@@ -93,6 +93,9 @@ struct RefineOptions {
   bool relax = false;
   bool best_effort = false;  ///< where the bound is not reached return the best valid atlas within max_distortion, do not throw
   Density density = Density::Equal;
+  /// Of a free box only: the size of the result, as sqrt(UV area / surface area), UV units per model unit. It may reach beyond
+  /// [0, 1]^2 then. 0 = the longer side of the box is 1.
+  double uv_density = 0;
   Stored stored = Stored::Double;
   RectangleOptions rectangles;
   Reference reference = Reference::Surface;

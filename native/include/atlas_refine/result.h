@@ -26,6 +26,7 @@ enum class Ended {
   Stalled,          ///< no further progress: there may be a better result
   OutOfIterations,  ///< likewise
   DistortionLimit,  ///< the bound is out of reach within max_distortion
+  Stopped,          ///< the callback answered Finish: the best so far, or the input where nothing better was found
 };
 /// Stable lower-case name ("not_run", "at_optimum", ...), used in reports and in Python.
 const char* to_string(Ended ended);
@@ -146,8 +147,8 @@ struct RefineResult {
   /// Edges of the input, as pairs of its vertices, that were cut where no face was divided (Cut::Edges); each once.
   std::vector<std::array<int, 2>> new_seams;
   Intervention intervention = Intervention::Unchanged;
-  /// False only with best_effort, where PE is below the bound, and where some group of several keeps its UVs because no result of
-  /// it holds. max_distortion holds in all that was refined.
+  /// False only with best_effort or Ended::Stopped, where PE is below the bound, and where some group of several keeps its UVs
+  /// because no result of it holds. max_distortion holds in all that was refined.
   bool bound_met = false;
   /// Of the charts that take part, stacked ones once. With several groups PE, box and gaps are the least of theirs, distortions
   /// their means by area.

@@ -39,8 +39,11 @@ std::optional<ReduceResult> polish(const PlacedCharts& start, const Objective& o
                                    const SqueezeOptions& options, Monitor& monitor) {
   ReduceProblem problem = problem_at(start, objective, gap, options);
   problem.warm = warm;
-  ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) { monitor.report(0.97, progress.pe); });
-  if (!result.holds()) return std::nullopt;
+  ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
+    monitor.report(0.97, progress.pe);
+    return !monitor.finishing();
+  });
+  if (!result.holds() && result.status != ReduceStatus::Stopped) return std::nullopt;
   return result;
 }
 
@@ -60,7 +63,7 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   patiently.least_change = kLeastChange;
   patiently.negligible = kNegligible;
   Squeezed out = squeeze_directly(coarse_starts, coarse->objective, patiently, monitor);
-  if (!out.outcome.holds()) return std::nullopt;
+  if (!out.outcome.holds() && !monitor.finishing()) return std::nullopt;
   const auto start = carried_over(*coarse, charts, objective, out.outcome);
   if (!start) return std::nullopt;
   auto result = polish(*start, objective, out.gap, warm_start(*coarse, charts, out.outcome.end), options, monitor);
@@ -70,7 +73,8 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   const PlacedCharts end = with_uvs_of(*start, *result);
   const Box box = uv_box(end.charts);
   const double gap = out.gap.length(end.has_frame() ? end.frame : box.size()) / box.diagonal();
-  if (gap_within(end.charts, kNearer * gap) < kNearer * gap_within(charts, gap)) return std::nullopt;
+  const bool stopped = result->status == ReduceStatus::Stopped;  // with no time for a direct one
+  if (!stopped && gap_within(end.charts, kNearer * gap) < kNearer * gap_within(charts, gap)) return std::nullopt;
   out.iterations += result->iterations;
   out.outcome = std::move(*result);
   return out;

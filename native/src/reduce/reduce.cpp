@@ -278,7 +278,10 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
   ReduceStatus status = ReduceStatus::OutOfTime;
   int iteration = 0;
   for (; iteration < problem.max_iterations; ++iteration) {
-    if (monitor) monitor({iteration, at.pe, at.energy, at.price, at.fraction});
+    if (monitor && !monitor({iteration, at.pe, at.energy, at.price, at.fraction})) {
+      status = ReduceStatus::Stopped;
+      break;
+    }
     if (const auto end = ended(task, at, schedule, counters, first_energy)) {
       status = *end;
       break;

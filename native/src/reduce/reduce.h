@@ -57,6 +57,7 @@ enum class ReduceStatus {
   TooDistorted,  ///< max_distortion was met before the target
   TooExpensive,  ///< max_rise was met before the target
   OutOfTime,     ///< max_iterations
+  Stopped,       ///< the monitor asked for the best state so far
 };
 
 struct ReduceProgress {
@@ -66,8 +67,8 @@ struct ReduceProgress {
   double price;
   double fraction;  ///< of the Newton step that was taken
 };
-/// Called before every iteration; may throw to cancel.
-using ReduceMonitor = std::function<void(const ReduceProgress&)>;
+/// Called before every iteration; false ends with the best state so far. May throw to cancel.
+using ReduceMonitor = std::function<bool(const ReduceProgress&)>;
 
 /// The best state that was found: within max_distortion if any was, then at the target if any was, then of the least objective
 /// there, or the highest PE.

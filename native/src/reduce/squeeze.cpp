@@ -32,6 +32,7 @@ ReduceResult reduce_from(const PlacedCharts& start, const Objective& objective, 
     if (progress.iteration == 0) first_pe = progress.pe;
     const double way = std::log(options.pe_bound / std::min(first_pe, 0.999 * options.pe_bound));
     monitor.report(0.95 * (1 - std::log(options.pe_bound / std::min(progress.pe, options.pe_bound)) / way), progress.pe);
+    return !monitor.finishing();
   });
 }
 
@@ -145,7 +146,7 @@ Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objecti
       out.gap_note = note;
       out.outcome = std::move(result);
     }
-    if (done) break;
+    if (done || monitor.finishing()) break;
     note = next_note;
   }
   return out;

@@ -150,6 +150,7 @@ std::optional<Chart> embed(const Chart& chart, Shapes shapes, int threads, Monit
   ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
     // The energy falls from far above to near 1: its logarithm tells how far the way is.
     monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
+    return true;  // nothing valid is there before this has ended
   });
   if (!(result.energy <= kCollapsed)) return std::nullopt;
   // Polygons that are convex in the end are guarded from here on.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "atlas_refine/error.h"
@@ -19,18 +20,27 @@
 namespace atlas_refine {
 namespace {
 
-/// UVs in the unit square at `origin` as they will be stored, per piece.
+/// sqrt(UV area / surface area) of all pieces together.
+double texel_density(const std::vector<Chart>& pieces) {
+  double surface = 0;
+  for (const Chart& piece : pieces) surface += piece.surface.area();
+  return std::sqrt(uv_area(pieces) / surface);
+}
+
+/// UVs in the unit square at `origin`, or at the density that is asked, as they will be stored, per piece.
 std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, const Vec2& frame, const Vec2& origin,
                                           const RefineOptions& options) {
   const double aspect = options.box_aspect, border = border_of(options);
   const Vec2 corner = aspect > 0 ? Vec2(border / aspect, border) : Vec2(Vec2::Zero()), part = 1 - 2 * corner.array();
   const Box box = frame.x() > 0 ? Box{Vec2::Zero(), frame} : box_of_aspect(uv_box(pieces), aspect * part.x() / part.y());
-  const Vec2 sides = aspect > 0 ? box.size() : Vec2::Constant(box.size().maxCoeff());
+  const double unit = options.uv_density > 0 ? texel_density(pieces) / options.uv_density : box.size().maxCoeff();
+  const Vec2 sides = aspect > 0 ? box.size() : Vec2::Constant(unit);
+  const double most = options.uv_density > 0 ? std::numeric_limits<double>::infinity() : 1.0;
   std::vector<std::vector<Vec2>> out;
   for (const Chart& piece : pieces) {
     std::vector<Vec2>& uvs = out.emplace_back();
     for (const Vec2& p : piece.uvs) {
-      const Vec2 within = (p - box.min).cwiseQuotient(sides).cwiseMin(1.0);
+      const Vec2 within = (p - box.min).cwiseQuotient(sides).cwiseMin(most);
       const Vec2 uv = origin + corner + within.cwiseProduct(part);
       uvs.push_back(as_stored(uv, options.stored));
     }

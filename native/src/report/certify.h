@@ -21,9 +21,10 @@ struct CertifiedAtlas {
 /// The value that is left after storing it.
 Vec2 as_stored(const Vec2& uv, Stored stored);
 
-/// Scales the pieces into the unit square at the input's origin, rounds their UVs as they will be stored, and tests just those
-/// values with exact predicates: every triangle and guard positive, no borders crossing or touching, the gap kept, the seams
-/// those that were meant. Pure: the same arguments give the same answer. Throws RefineError(NotCertified).
+/// Scales the pieces into the unit square at the input's origin, or to the density that is asked, rounds their UVs as they will
+/// be stored, and tests just those values with exact predicates: every triangle and guard positive, no borders crossing or
+/// touching, the gap kept, the seams those that were meant. Pure: the same arguments give the same answer. Throws
+/// RefineError(NotCertified).
 CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap& gap, const RefineOptions& options);
 
 /// Reports of the input's charts where nothing was done to them.

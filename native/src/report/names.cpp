@@ -47,6 +47,8 @@ const char* to_string(Ended ended) {
       return "out_of_iterations";
     case Ended::DistortionLimit:
       return "distortion_limit";
+    case Ended::Stopped:
+      return "stopped";
   }
   return "unknown";
 }

@@ -55,6 +55,9 @@ void check_options(const Atlas& atlas, const RefineOptions& options) {
           "the largest boundary growth must be a finite number of at least 0");
   require(options.seam_cost >= 0 && std::isfinite(options.seam_cost), "the seam cost must be a finite number of at least 0");
   require(!options.point || (*options.point >= 0 && options.trade_off), "the point must be at least 0, of a trade-off");
+  require(options.uv_density >= 0 && std::isfinite(options.uv_density), "the UV density must be a finite number of at least 0");
+  require(options.uv_density == 0 || (options.box_aspect == 0 && !options.in_texture && options.locked.empty()),
+          "a UV density needs a free box: a texture that is filled has the one that comes of it");
   const RectangleOptions& rectangles = options.rectangles;
   require(rectangles.sigma > 0 && rectangles.sigma <= 0.1, "sigma must lie between 0 (excluded) and 0.1");
   require(rectangles.candidates >= 1 && rectangles.candidates <= 1000000, "the candidates must number 1 to 1000000");

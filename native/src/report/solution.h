@@ -43,6 +43,8 @@ inline Ended ended_of(ReduceStatus status) {
       return Ended::DistortionLimit;
     case ReduceStatus::OutOfTime:
       return Ended::OutOfIterations;
+    case ReduceStatus::Stopped:
+      return Ended::Stopped;
     case ReduceStatus::Stalled:
     case ReduceStatus::TooExpensive:
       return Ended::Stalled;

@@ -14,7 +14,7 @@ namespace atlas_refine {
 
 void Monitor::begin_stage(std::string stage, double from, double to) {
   const std::lock_guard lock(mutex_);
-  throw_if_cancelled();
+  throw_if_asked();
   present_.stage = std::move(stage);
   present_.fraction = std::max(present_.fraction, from);
   from_ = from;
@@ -23,14 +23,14 @@ void Monitor::begin_stage(std::string stage, double from, double to) {
 
 void Monitor::report(double fraction, double pe) {
   const std::lock_guard lock(mutex_);
-  throw_if_cancelled();
+  throw_if_asked();
   present_.fraction = std::max(present_.fraction, from_ + (to_ - from_) * std::clamp(fraction, 0.0, 1.0));
   present_.pe = pe;
 }
 
 void Monitor::check() const {
   const std::lock_guard lock(mutex_);
-  throw_if_cancelled();
+  throw_if_asked();
 }
 
 void Monitor::cancel() {
@@ -38,13 +38,29 @@ void Monitor::cancel() {
   cancelled_ = true;
 }
 
+void Monitor::finish() {
+  const std::lock_guard lock(mutex_);
+  finishing_ = true;
+}
+
+bool Monitor::finishing() const {
+  const std::lock_guard lock(mutex_);
+  return finishing_;
+}
+
+void Monitor::set_worthless(bool worthless) {
+  const std::lock_guard lock(mutex_);
+  worthless_ = worthless;
+}
+
 Progress Monitor::snapshot() const {
   const std::lock_guard lock(mutex_);
   return present_;
 }
 
-void Monitor::throw_if_cancelled() const {
+void Monitor::throw_if_asked() const {
   if (cancelled_) throw RefineError(ErrorCode::Cancelled, present_.stage, "cancelled");
+  if (finishing_ && worthless_) throw GivenUp{};
 }
 
 namespace {
@@ -91,7 +107,9 @@ void run_monitored(const ProgressFn& progress, const std::function<void(Monitor&
   while (!worker.wait(std::chrono::milliseconds(50))) {
     if (callback_error) continue;
     try {
-      if (!progress(monitor.snapshot())) monitor.cancel();
+      const Answer answer = progress(monitor.snapshot());
+      if (answer.kind() == Answer::Cancel) monitor.cancel();
+      if (answer.kind() == Answer::Finish) monitor.finish();
     } catch (...) {
       callback_error = std::current_exception();
       monitor.cancel();

@@ -1,0 +1,106 @@
+"""Texel density in pixels per metre, and the overlay's switches; what is drawn is looked at in a window."""
+
+import sys
+import unittest
+
+import addon_utils
+import bpy
+import numpy as np
+from support import MODULE, add_mesh, changes, enable_addon, fresh_scene, get_uvs, messages, snapshot
+
+
+def module(name):
+    return sys.modules[f"{MODULE}.{name}"]
+
+
+def pixels_per_metre(obj, pixels, metres=1.0):
+    """From the stored values; for flat quads of one unit, at the object's scale."""
+    u, v = np.moveaxis(get_uvs(obj.data.uv_layers.active).astype(np.float64).reshape(-1, 4, 2), 2, 0)
+    area = 0.5 * np.sum(u * np.roll(v, -1, axis=1) - np.roll(u, -1, axis=1) * v)
+    return pixels * np.sqrt(area / len(obj.data.polygons)) / (obj.scale[0] * metres)
+
+
+class Density(unittest.TestCase):
+    def setUp(self):
+        fresh_scene()
+
+    def refined(self, obj, **options):
+        bpy.context.view_layer.update()
+        self.assertEqual(bpy.ops.uv.atlas_refine(density="VALUE", **options), {"FINISHED"})
+        (done,) = module("tasks").last
+        return done.density
+
+    def test_a_free_box_gets_the_value_with_scale_and_unit(self):
+        for scale, metres in ((1.0, 1.0), (2.5, 1.0), (1.0, 0.01)):
+            fresh_scene()
+            obj = add_mesh()
+            obj.scale = (scale,) * 3
+            bpy.context.scene.unit_settings.scale_length = metres
+            found = self.refined(obj, aspect="FREE", gap="AUTO", texel_density=40.0, texture_size=1024)
+            self.assertAlmostEqual(found.after, 40.0, delta=1e-3)
+            self.assertAlmostEqual(pixels_per_metre(obj, 1024, metres), 40.0, delta=1e-3)
+
+    def test_a_texture_is_filled_and_the_size_that_is_needed_told(self):
+        obj = add_mesh()
+        found = self.refined(obj, texel_density=1000.0, texture_size=1024)
+        self.assertAlmostEqual(found.after, pixels_per_metre(obj, 1024), delta=1e-2)
+        lines = list(module("core.density").density_lines(found))
+        needed = int(lines[2].split(" px:")[0].split()[-1])
+        self.assertAlmostEqual(needed / 1024, 1000.0 / found.after, delta=2e-3)
+
+    def test_measure_tells_it_and_changes_nothing(self):
+        obj = add_mesh()
+        before = snapshot(obj)
+        bpy.ops.uv.atlas_refine_measure()
+        (done,) = module("tasks").last
+        self.assertAlmostEqual(done.density.before, pixels_per_metre(obj, 2048), delta=1e-2)
+        self.assertIsNone(done.density.after)
+        self.assertEqual(changes(before, snapshot(obj)), [])
+
+
+class Overlay(unittest.TestCase):
+    def setUp(self):
+        fresh_scene()
+
+    def test_switches_make_handlers_and_leave_none(self):
+        switches = bpy.context.window_manager.atlas_refine_overlay
+        handles = module("overlay")._handles
+        for layer in ("stretch", "seams", "gap"):
+            setattr(switches, layer, True)
+            self.assertTrue(getattr(switches, layer))
+            self.assertEqual(len(handles), 2)
+        for layer in ("stretch", "seams"):
+            setattr(switches, layer, False)
+        self.assertEqual(len(handles), 2)
+        switches.gap = False
+        self.assertEqual(handles, [])
+
+    def test_another_file_and_disabling_switch_it_off(self):
+        bpy.context.window_manager.atlas_refine_overlay.stretch = True
+        fresh_scene()
+        self.assertFalse(bpy.context.window_manager.atlas_refine_overlay.stretch)
+        bpy.context.window_manager.atlas_refine_overlay.stretch = True
+        handles = module("overlay")._handles
+        addon_utils.disable(MODULE, default_set=True)
+        self.assertEqual(handles, [])
+        self.assertFalse(hasattr(bpy.types.WindowManager, "atlas_refine_overlay"))
+        enable_addon()
+
+    def test_new_seams_are_those_of_the_last_run(self):
+        for cut in ("EDGES", "SPLIT"):
+            fresh_scene()
+            obj = add_mesh()
+            bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut=cut, pe_bound=0.8)
+            edges = module("tasks").new_seams(obj.name)
+            marked = {tuple(sorted(edge.vertices)) for edge in obj.data.edges if edge.use_seam}
+            self.assertEqual({tuple(sorted(edge)) for edge in edges.tolist()}, marked)
+            self.assertTrue(marked)
+        obj.data.vertices[0].co.x += 1.0
+        obj.data.update()
+        bpy.context.view_layer.update()
+        self.assertEqual(len(module("tasks").new_seams(obj.name)), 0)
+
+    def test_keep_best_has_nothing_to_do_while_nothing_runs(self):
+        add_mesh()
+        self.assertFalse(bpy.ops.uv.atlas_refine_keep_best.poll())
+        self.assertIn("Texture use", messages(bpy.ops.uv.atlas_refine_measure))
