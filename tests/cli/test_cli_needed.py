@@ -25,16 +25,20 @@ def test_a_limit_is_kept_with_few_seams(program, source):
     whole = run(program, source)
     limit = 1 + 0.5 * (whole["after"]["distortion"] - 1)
     cut = run(program, source, "--seams", "needed", "--max-distortion", str(limit))
-    assert cut["after"]["distortion"] <= limit and cut["after"]["pe"] >= 0.8
-    assert cut["cuts"]["cuts"] >= 1 and cut["boundary_growth"] > 0
-    assert cut["intervention"] == "cut" and cut["options"]["needed"]["effort"] == "normal"
+    assert cut["after"]["distortion"] <= limit
+    assert cut["after"]["pe"] >= 0.8
+    assert cut["cuts"]["cuts"] >= 1
+    assert cut["boundary_growth"] > 0
+    assert cut["intervention"] == "cut"
+    assert cut["options"]["needed"]["effort"] == "normal"
 
 
 def test_a_budget_of_seams_is_kept(program, source):
     told = run(program, source, "--seams", "needed", "--seam-cost", "0.001", "--max-boundary-growth", "0.12")
     assert 0 < told["boundary_growth"] <= 0.12
     none = run(program, source, "--seams", "needed", "--max-boundary-growth", "0")
-    assert none["boundary_growth"] == 0 and none["intervention"] == "squeezed"
+    assert none["boundary_growth"] == 0
+    assert none["intervention"] == "squeezed"
 
 
 def test_the_trade_off_is_a_table_and_a_picture(program, source, tmp_path):
@@ -44,9 +48,11 @@ def test_the_trade_off_is_a_table_and_a_picture(program, source, tmp_path):
     seams = [row for row in rows if row["kind"] == "seams"]
     packing = [float(row["distortion"]) for row in rows if row["kind"] == "packing"]
     assert len(seams) == len(told["cuts"]["trade_off"]) >= 2
-    assert len(packing) >= 5 and packing == sorted(packing)
+    assert len(packing) >= 5
+    assert packing == sorted(packing)
     growth = [float(row["boundary_growth"]) for row in seams]
-    assert growth[0] == 0 and growth == sorted(growth)
+    assert growth[0] == 0
+    assert growth == sorted(growth)
     assert (tmp_path / "t.svg").read_text().count("<circle") == len(rows)
     second = run(program, source, "--seams", "needed", "--effort", "fast", "--trade-off", table, "--point", "1")
     assert second["boundary_growth"] == pytest.approx(growth[1], abs=1e-6)
