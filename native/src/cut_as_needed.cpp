@@ -153,7 +153,7 @@ class Search {
 
   void look_for_best() {
     if (!wish_.is_enough(found_.squeezed.front().trial)) expand(found_.squeezed.front());
-    while (found_.squeezed.size() < budget_.squeezes && !found_.forecast.empty()) {
+    while (found_.squeezed.size() < budget_.squeezes && !found_.forecast.empty() && !trials_.finishing()) {
       const auto next = cheapest([&](const Trial& trial) { return promise(trial); });
       if (is_hopeless(*next)) break;
       const SqueezedTrial* found = squeeze(next);
@@ -166,12 +166,12 @@ class Search {
   /// Goes on from what is cheapest at one price of seams after the other, then squeezes what may be worth a choice.
   void look_for_all() {
     expand(found_.squeezed.front());
-    for (int k = 0; k < budget_.expansions && !found_.forecast.empty(); ++k) {
+    for (int k = 0; k < budget_.expansions && !found_.forecast.empty() && !trials_.finishing(); ++k) {
       const double price = kPrices[k % kPrices.size()];
       const SqueezedTrial* found = squeeze(cheapest([&](const Trial& trial) { return loss(trial) + price * trial.growth; }));
       if (found) expand(*found);
     }
-    for (int k = 0; k < kMostPoints; ++k) {
+    for (int k = 0; k < kMostPoints && !trials_.finishing(); ++k) {
       const auto next = found_.forecast_on_front();
       if (next == found_.forecast.end()) break;
       squeeze(next);

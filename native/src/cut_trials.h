@@ -30,6 +30,9 @@ class CutTrials {
   /// `run`: without a largest distortion.
   CutTrials(const Refinement& run, const ProgressRange& range);
 
+  /// What there is will do.
+  bool finishing() const { return run_.monitor.finishing(); }
+
   const std::vector<int>& mended() const { return whole_.mended; }
 
   SqueezedTrial without_cuts(const ProgressRange& range) const;

@@ -7,6 +7,9 @@ row with the program's own reason. Exit code 0 where every row is ok (or nothing
 --real: instead every atlas of uv/ as it was found and every mesh of no_uv/ after Blender's Smart UV Project, at 0.80: how each ends;
 exit code 1 where one crashes, hangs or is not valid.
 
+--needed: instead every file without seams, with rectangles, and with needed ones at two limits of distortion (needed.json); exit
+code 1 where a limit is not kept or a result is not valid.
+
 --blender: instead the files of uv/atlas-clean inside Blender at 0.80 of a square, beside Blender's own Pack Islands (exact shapes,
 any rotation) at the same margin; blender.json, blender.md.
 
@@ -28,6 +31,7 @@ from pathlib import Path
 
 import against
 import in_blender
+import needed
 import real
 import studies
 import table
@@ -170,6 +174,11 @@ def run_blender(arguments):
     return in_blender.run_blender(each_mesh(arguments), bound, arguments.cache, arguments.build, arguments.out)
 
 
+def run_needed(arguments):
+    at = replace((arguments.bounds or GOALS)[0], options=arguments.new_options)
+    return needed.run_needed(arguments.build, each_mesh(arguments), at, arguments.jobs, arguments.out)
+
+
 def run_bad_input(arguments):
     lines, wrong = bad_input_lines(arguments.build / "atlas-refine")
     print("\n".join(lines))
@@ -199,6 +208,7 @@ def parsed():
         "--old-options", type=options, default=(), help="further options of the commit's program, as --old-options=..."
     )
     parser.add_argument("--new-options", type=options, default=(), help="further options of this tree's program")
+    parser.add_argument("--needed", action="store_true", help="instead: seams none, rectangles, and needed within limits")
     parser.add_argument("--blender", action="store_true", help="instead: inside Blender, beside its own Pack Islands")
     parser.add_argument("--determinism", action="store_true", help="instead: the same bits from 2 runs and from 1 and 2 threads")
     parser.add_argument("--bad-input", action="store_true", help="instead: exit codes and messages of bad input")
@@ -225,6 +235,8 @@ def run_asked(arguments):
     arguments.out.mkdir(parents=True, exist_ok=True)
     if arguments.real:
         return run_real(arguments)
+    if arguments.needed:
+        return run_needed(arguments)
     if arguments.blender:
         return run_blender(arguments)
     if arguments.study:
