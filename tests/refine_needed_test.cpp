@@ -16,6 +16,7 @@ RefineOptions needed(double pe_bound = 0.8) {
   RefineOptions options;
   options.pe_bound = pe_bound;
   options.seams = Seams::Needed;
+  options.effort = Effort::Fast;
   return options;
 }
 
@@ -49,8 +50,8 @@ RefineResult refine_soundly(const Atlas& atlas, const RefineOptions& options) {
 }
 
 // Flat shapes whose UVs are the surface: what is lost is lost for the bound alone.
-Atlas flat_s() { return shapes::mesh(shapes::s_shape(), 0.06, 0); }
-Atlas flat_star() { return shapes::mesh(shapes::star(), 0.06, 0); }
+Atlas flat_s() { return shapes::mesh(shapes::s_shape(), 0.1, 0); }
+Atlas flat_star() { return shapes::mesh(shapes::star(), 0.1, 0); }
 
 double without_cuts(const Atlas& atlas) {
   RefineOptions options;
@@ -90,7 +91,7 @@ TEST(Needed, WithoutALimitCutsAreMadeWhereTheyPay) {
   RefineOptions options = needed();
   options.seam_cost = 10;
   EXPECT_EQ(refine_soundly(atlas, options).added_seams, 0);
-  options.seam_cost = 0.001;
+  options.seam_cost = 0.01;
   const RefineResult cheap = refine_soundly(atlas, options);
   EXPECT_GT(cheap.added_seams, 0);
   EXPECT_LT(cheap.after.distortion + options.seam_cost * cheap.boundary_growth, without_cuts(atlas));
@@ -149,11 +150,20 @@ TEST(Needed, SameBitsOnOneAndTwoThreads) {
   EXPECT_GT(one.cuts->cuts, 0);
 }
 
+// Of several charts the layout stays; what curves much is relieved by a cut into it, and no chart more.
+TEST(Needed, AmongManyChartsTheLayoutStays) {
+  std::vector<Atlas> domes;
+  for (int k = 0; k < 10; ++k) domes.push_back(shapes::mesh(shapes::disk(0.5 + 0.05 * k, 24), 0.15, 2.0));
+  const Atlas atlas = shapes::combine(domes);
+  const RefineResult result = refine_soundly(atlas, needed_within(1 + 0.8 * (without_cuts(atlas) - 1)));
+  EXPECT_GT(result.cuts->cuts, 0);
+  EXPECT_EQ(result.after.chart_count, 10);
+}
+
 TEST(Needed, TheTradeOffHasEveryChoice) {
   const Atlas atlas = flat_s();
   RefineOptions options = needed();
   options.trade_off = true;
-  options.effort = Effort::Fast;
   const RefineResult all = refine_soundly(atlas, options);
   const std::vector<TradeOff>& points = all.cuts->trade_off;
   ASSERT_GE(points.size(), 2u);

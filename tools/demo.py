@@ -1,7 +1,7 @@
 """The demo: a subdivided Suzanne in headless Blender, unwrapped by Blender, brought to PE 0.80 by the add-on's operator.
 
-usage: demo.py OUT_DIR     writes before.png, after.png, tighter.png (0.90), squeezed.png and cut.png (the two roads in a square), before.obj,
-                           after.obj, suzanne.blend and table.txt
+usage: demo.py OUT_DIR     writes before.png, after.png, tighter.png (0.90), squeezed.png, needed5.png to needed20.png and cut.png (seams none, needed within
+                           three budgets, rectangles in a square), before.obj, after.obj, suzanne.blend and table.txt
 """
 
 import json
@@ -14,6 +14,7 @@ import tempfile
 
 import blenders
 
+NEEDED = (5, 10, 20)  # budgets of seams, per cent of the charts' boundary
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
@@ -51,10 +52,15 @@ def main(out_dir):
     draw(out, "before", "before", "Blender's unwrap", "--pe-bound", "0.01")
     draw(out, "after", "after", "refined to 0.80", "--pe-bound", "0.01")
     draw(out, "before", "tighter", "refined to 0.90", "--pe-bound", "0.90")
-    draw(out, "before", "squeezed", "squeezed to 0.80", "--pe-bound", "0.80", "--aspect", "square")
-    draw(out, "before", "cut", "cut into rectangles", "--pe-bound", "0.80", "--aspect", "square", "--seams", "rectangles")
+    square = ("--pe-bound", "0.80", "--aspect", "square")
+    draw(out, "before", "squeezed", "squeezed to 0.80", *square)
+    for percent in NEEDED:
+        needed = ("--seams", "needed", "--seam-cost", "0", "--max-boundary-growth", str(0.01 * percent))
+        draw(out, "before", f"needed{percent}", f"needed, up to {percent} % more boundary", *square, *needed)
+    draw(out, "before", "cut", "cut into rectangles", *square, "--seams", "rectangles")
     print((out / "table.txt").read_text())
-    for file in ("before.png", "after.png", "tighter.png", "squeezed.png", "cut.png", "suzanne.blend", "table.txt"):
+    pictures = ["before", "after", "tighter", "squeezed", *(f"needed{percent}" for percent in NEEDED), "cut"]
+    for file in (*(f"{picture}.png" for picture in pictures), "suzanne.blend", "table.txt"):
         print(out / file)
 
 

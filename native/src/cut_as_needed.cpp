@@ -204,7 +204,7 @@ class Search {
   const SqueezedTrial* squeeze(std::vector<Trial>::iterator next) {
     const Trial trial = *next;
     found_.forecast.erase(next);
-    auto squeezed = trials_.squeezed(trial.cuts, step());
+    auto squeezed = trials_.squeezed(trial, step());
     if (squeezed) return &found_.squeezed.emplace_back(std::move(*squeezed));
     found_.failed.push_back(trial);
     return nullptr;
@@ -213,18 +213,8 @@ class Search {
   /// Forecasts what one more cut comes to, and what one cut less does.
   void expand(const SqueezedTrial& present) {
     ++expansions_;
-    const std::vector<CutPlace>& cuts = present.trial.cuts;
-    std::vector<std::vector<CutPlace>> sets;
-    for (const CutPlace& place : trials_.places(present, budget_.forecasts)) {
-      sets.push_back(cuts);
-      sets.back().push_back(place);
-    }
-    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-      sets.push_back(cuts);
-      sets.back().erase(sets.back().begin() + static_cast<std::ptrdiff_t>(k));
-    }
     const double most = options_.max_boundary_growth.value_or(std::numeric_limits<double>::infinity());
-    for (Trial& trial : trials_.forecasts(sets, most)) {
+    for (Trial& trial : trials_.forecasts(present, trials_.places(present, budget_.forecasts), most)) {
       ++found_.tried;
       const double gain = loss(present.trial) - loss(trial), more = trial.growth - present.trial.growth;
       if ((more > 0 && gain < kSettled) || found_.knows(trial)) continue;

@@ -11,13 +11,15 @@
 #include "place_and_squeeze.h"
 #include "repair/part_touching.h"
 #include "report/locked.h"
+#include "seams/lay_apart.h"
 #include "solve/symmetric_dirichlet.h"
 #include "support/parallel.h"
 
 namespace atlas_refine {
 namespace {
 
-constexpr double kLeastPart = 0.02;  // of its chart's surface: no cut leaves less
+constexpr std::size_t kFewCharts = 8;  // of these all pieces are placed anew as well
+constexpr double kLeastPart = 0.02;    // of its chart's surface: no cut leaves less
 
 }  // namespace
 
@@ -86,41 +88,86 @@ std::optional<CutAtlas> CutTrials::atlas_of(const std::vector<ChartCuts>& charts
   return out;
 }
 
-std::optional<SqueezedTrial> CutTrials::squeezed(const std::vector<CutPlace>& cuts, const ProgressRange& range) const {
-  const auto charts = made(cuts);
+/// The pieces in the layout of the present state; nothing where they would cross or touch there.
+std::optional<CutAtlas> CutTrials::in_place(const CutAtlas& atlas, const SqueezedTrial& present) const {
+  const Solution& solution = present.solution;
+  if (solution.end.box.isZero()) return std::nullopt;  // only moved
+  const Vec2 box = solution.atlas.frame.isZero() ? solution.end.box : solution.atlas.frame;
+  CutAtlas out = lay_apart(atlas, solution.atlas, run_.input.set.charts, solution.gap.length(box));
+  for (Piece& piece : out.pieces) {
+    if (!bends(freedom_, piece.chart) || certify_charts({piece.mesh}).valid()) continue;
+    auto parted = part_touching(piece.mesh);
+    if (!parted) return std::nullopt;
+    piece.mesh = std::move(*parted);
+  }
+  const Freedoms freedom = freedom_of_pieces(freedom_, out);
+  const std::vector<Chart> pieces = meshes_of(out);
+  if (!certify_charts(pieces, points_in_space(out, run_.input.set.points), freedom).valid()) return std::nullopt;
+  if (gap_between_charts(pieces, freedom) <= solution.gap.length(box)) return std::nullopt;
+  return out;
+}
+
+std::optional<SqueezedTrial> CutTrials::squeezed(const Trial& trial, const ProgressRange& range) const {
+  const auto charts = made(trial.cuts);
   const auto atlas = charts ? atlas_of(*charts) : std::nullopt;
   if (!atlas) return std::nullopt;
   Journal& journal = run_.journal;
   const Journal::Mark before = journal.mark();
-  auto solution = place_and_squeeze_cut(run_, *atlas, range);
+  std::optional<Solution> solution;
+  if (trial.in_place_of) {
+    journal.begin_stage("squeeze", range);
+    solution = squeeze_in_place(run_, *in_place(*atlas, *trial.in_place_of), trial.in_place_of->solution);
+  } else {
+    solution = place_and_squeeze_cut(run_, *atlas, range);
+  }
   std::optional<SqueezedTrial> out;
   if (solution) {
-    out = SqueezedTrial{.trial = {cuts, growth_of(*charts), distortion_of(*solution)}, .solution = std::move(*solution)};
+    out = SqueezedTrial{.trial = trial, .solution = std::move(*solution)};
+    out->trial.distortion = distortion_of(out->solution);
     out->fallbacks.assign(journal.fallbacks.begin() + static_cast<std::ptrdiff_t>(before.fallbacks), journal.fallbacks.end());
     out->warnings.assign(journal.warnings.begin() + static_cast<std::ptrdiff_t>(before.warnings), journal.warnings.end());
+    if (trial.in_place_of) out->warnings = trial.in_place_of->warnings;
   }
   journal.back_to(before);
   return out;
 }
 
-std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, double most_growth) const {
+std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, const SqueezedTrial* present,
+                                         double most_growth) const {
   const auto charts = made(cuts);
   if (!charts || leaves_slivers(*charts)) return std::nullopt;
   Trial out{.cuts = cuts, .growth = growth_of(*charts)};
   if (out.growth > most_growth) return std::nullopt;
   const auto atlas = atlas_of(*charts);
   if (!atlas) return std::nullopt;
-  // One thread each: they run side by side.
-  const auto distortion = forecast_distortion({run_.input, run_.options, run_.monitor, run_.journal, 1, run_.asked}, *atlas);
-  if (!distortion) return std::nullopt;
-  out.distortion = *distortion;
+  const Refinement run{run_.input, run_.options, run_.monitor, run_.journal, 1, run_.asked};  // they run side by side
+  // A chart alone that is cut is best placed anew; of many charts the layout is worth more than what another would gain.
+  const auto laid = present && charts->size() > 1 ? in_place(*atlas, *present) : std::nullopt;
+  const auto left = laid ? forecast_in_place(run, *laid, present->solution) : std::nullopt;
+  const auto moved = !left || charts->size() <= kFewCharts ? forecast_distortion(run, *atlas) : std::nullopt;
+  if (!left && !moved) return std::nullopt;
+  const double infinite = std::numeric_limits<double>::infinity();
+  out.distortion = std::min(left.value_or(infinite), moved.value_or(infinite));
+  if (left && *left <= moved.value_or(infinite)) out.in_place_of = present;
   return out;
 }
 
-std::vector<Trial> CutTrials::forecasts(const std::vector<std::vector<CutPlace>>& sets, double most_growth) const {
+std::vector<Trial> CutTrials::forecasts(const SqueezedTrial& present, const std::vector<CutPlace>& places,
+                                        double most_growth) const {
+  const std::vector<CutPlace>& cuts = present.trial.cuts;
+  std::vector<std::vector<CutPlace>> sets;
+  for (const CutPlace& place : places) {
+    sets.push_back(cuts);
+    sets.back().push_back(place);
+  }
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+    sets.push_back(cuts);
+    sets.back().erase(sets.back().begin() + static_cast<std::ptrdiff_t>(k));
+  }
   std::vector<std::optional<Trial>> found(sets.size());
   parallel_ranges(static_cast<int>(sets.size()), run_.threads, 1, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) found[k] = forecast(sets[k], most_growth);
+    for (int k = begin; k < end; ++k)
+      found[k] = forecast(sets[k], sets[k].size() > cuts.size() ? &present : nullptr, most_growth);
   });
   std::vector<Trial> out;
   for (auto& trial : found) {

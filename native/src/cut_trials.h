@@ -11,11 +11,15 @@
 
 namespace atlas_refine {
 
+struct SqueezedTrial;
+
 /// The outcome of some cuts.
 struct Trial {
   std::vector<CutPlace> cuts;  ///< in the order in which they are made
   double growth = 0;           ///< of the boundary on the surface, as a fraction of that of the charts; both sides of a cut count
   double distortion = 0;       ///< E_d; infinite where the bound does not hold
+  /// What they are one cut more than, where the pieces are best left in its layout; else they are placed anew.
+  const SqueezedTrial* in_place_of = nullptr;
 };
 
 /// The same squeezed to the end.
@@ -36,12 +40,12 @@ class CutTrials {
   const std::vector<int>& mended() const { return whole_.mended; }
 
   SqueezedTrial without_cuts(const ProgressRange& range) const;
-  /// Nothing where the cuts cannot be made, or the bound does not hold.
-  std::optional<SqueezedTrial> squeezed(const std::vector<CutPlace>& cuts, const ProgressRange& range) const;
+  /// Of what was forecast; nothing where the bound does not hold.
+  std::optional<SqueezedTrial> squeezed(const Trial& trial, const ProgressRange& range) const;
 
-  /// One for each set of cuts that can be made, leaves no slivers, adds at most `most_growth` and holds the bound, in their
-  /// order.
-  std::vector<Trial> forecasts(const std::vector<std::vector<CutPlace>>& sets, double most_growth) const;
+  /// What one more cut than `present` has comes to, and what one cut less does: one trial for each that can be made, leaves no
+  /// slivers, adds at most `most_growth` and holds the bound. `present` must outlive them.
+  std::vector<Trial> forecasts(const SqueezedTrial& present, const std::vector<CutPlace>& places, double most_growth) const;
 
   /// Where one more cut may pay; at most `most`.
   std::vector<CutPlace> places(const SqueezedTrial& present, int most) const;
@@ -49,7 +53,8 @@ class CutTrials {
  private:
   std::optional<std::vector<ChartCuts>> made(const std::vector<CutPlace>& cuts) const;
   std::optional<CutAtlas> atlas_of(const std::vector<ChartCuts>& charts) const;
-  std::optional<Trial> forecast(const std::vector<CutPlace>& cuts, double most_growth) const;
+  std::optional<Trial> forecast(const std::vector<CutPlace>& cuts, const SqueezedTrial* present, double most_growth) const;
+  std::optional<CutAtlas> in_place(const CutAtlas& atlas, const SqueezedTrial& present) const;
   double growth_of(const std::vector<ChartCuts>& charts) const;
   bool leaves_slivers(const std::vector<ChartCuts>& charts) const;
   std::vector<std::vector<double>> losses(const Solution& solution) const;

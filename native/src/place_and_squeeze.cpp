@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "atlas_refine/error.h"
+#include "coarsen/coarse_atlas.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "pack/place_charts.h"
@@ -132,6 +133,7 @@ void squeeze_into(const Refinement& run, const std::vector<PlacedCharts>& starts
   out.gap = best.gap;
   out.ended = ended_of(best.outcome.status);
   out.price = best.outcome.price;
+  out.end = best.outcome.end;
   warn_of_gap(run, best.gap, best.gap_note);
 }
 
@@ -239,6 +241,64 @@ std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas&
   const ReduceResult result = squeeze_from(run, atlas, {*start}, freedom, gaps, most).outcome;
   if (!result.reached || !result.within_limit) return std::nullopt;
   return result.distortion;
+}
+
+namespace {
+
+ReduceProblem problem_in_place(const Refinement& run, const std::vector<Chart>& pieces, const Solution& from,
+                               const CutAtlas& laid) {
+  ReduceProblem problem{.charts = pieces,
+                        .gap = from.gap,
+                        .box_aspect = run.options.box_aspect,
+                        .pe_target = run.options.pe_bound,
+                        .threads = run.threads,
+                        .freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), laid),
+                        .frame = laid.frame,
+                        .warm = from.end};
+  problem.warm->near_borders.clear();  // of other vertices
+  return problem;
+}
+
+}  // namespace
+
+std::optional<Solution> squeeze_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from) {
+  const std::vector<Chart> pieces = meshes_of(laid);
+  ReduceProblem problem = problem_in_place(run, pieces, from, laid);
+  problem.objective = goal_of(run.input.set.charts, laid, run.options);
+  const ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
+    run.monitor.report(0.5, progress.pe);
+    return !run.monitor.finishing();
+  });
+  if (!result.holds()) return std::nullopt;
+  Solution out{.intervention = Intervention::Cut,
+               .atlas = with_uvs(laid, result.uvs),
+               .gap = from.gap,
+               .ended = ended_of(result.status),
+               .price = result.price,
+               .end = result.end};
+  out.atlas.frame = result.frame;
+  return out;
+}
+
+std::optional<double> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from) {
+  const std::vector<Chart> pieces = meshes_of(laid);
+  const Objective objective = goal_of(run.input.set.charts, laid, run.options);
+  ReduceProblem problem = problem_in_place(run, pieces, from, laid);
+  const auto coarse = coarsen(pieces, objective, problem.freedom);
+  PlacedCharts start{.charts = pieces, .frame = laid.frame};
+  if (coarse) start = restricted(*coarse, start);
+  ReduceProblem rough{.charts = start.charts,
+                      .objective = coarse ? coarse->objective : objective,
+                      .gap = problem.gap,
+                      .box_aspect = problem.box_aspect,
+                      .pe_target = problem.pe_target,
+                      .threads = 1,
+                      .freedom = problem.freedom,
+                      .frame = start.frame,
+                      .warm = problem.warm};
+  const ReduceResult result = reduce_distortion(rough, [&](const ReduceProgress&) { return !run.monitor.finishing(); });
+  if (!result.holds()) return std::nullopt;
+  return result.energy;
 }
 
 std::optional<double> forecast_distortion(const Refinement& run, const CutAtlas& atlas) {

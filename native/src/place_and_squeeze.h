@@ -23,7 +23,14 @@ bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare
 /// E_d that these pieces would have at the bound, roughly; nothing where that is above `most`.
 std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas& atlas, bool keeps_place, double most);
 
-/// The same without a limit, sooner and rougher; nothing where the bound is not reached. Several may run at once.
+/// Pieces that lie where they were in `from`, which was squeezed, and a little apart where they were cut: squeezed on from there.
+/// Nothing where the bound is not reached.
+std::optional<Solution> squeeze_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from);
+/// The objective that this comes to, sooner and rougher.
+std::optional<double> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from);
+
+/// As squeezed_distortion() without a limit and on coarse charts, sooner and rougher; nothing where the bound is not reached.
+/// Several may run at once.
 std::optional<double> forecast_distortion(const Refinement& run, const CutAtlas& atlas);
 
 }  // namespace atlas_refine
