@@ -29,7 +29,7 @@ struct Budget {
 Budget budget_of(Effort effort) {
   switch (effort) {
     case Effort::Fast:
-      return {6, 3, 6};
+      return {8, 3, 6};
     case Effort::Normal:
       return {12, 8, 12};
     case Effort::Best:
