@@ -136,16 +136,23 @@ Objective shapes_of_uvs(const Chart& chart, const std::vector<Chart>& pieces) {
 
 }  // namespace
 
-std::optional<Chart> embed(const Chart& chart, Shapes shapes, int threads, Monitor& monitor) {
+std::optional<Chart> spread_out(const Chart& chart, int threads, Monitor& monitor) {
   std::optional<Chart> start = on_disk(chart, threads, monitor);
   if (!start) return std::nullopt;
   drop_broken_guards(*start);
   if (Chart better = stretched(*start); certify_charts({better}).valid()) start = std::move(better);
-  const std::vector<Chart> charts = {*start};
+  return start;
+}
+
+std::optional<Chart> embed(const Chart& chart, const Chart& start, Shapes shapes, int threads, Monitor& monitor) {
+  const std::vector<Chart> charts = {start};
   // Shapes may be kept all but exactly: no part of a distortion that is nothing is worth a wait.
   constexpr double kNegligible = 1e-6;
-  ReduceProblem problem{
-      .charts = charts, .gap = {.value = kGapForLargerBox * Gap{}.value}, .negligible = kNegligible, .threads = threads};
+  ReduceProblem problem{.charts = charts,
+                        .gap = {.value = kGapForLargerBox * Gap{}.value},
+                        .negligible = kNegligible,
+                        .most_energy = kCollapsed,
+                        .threads = threads};
   if (shapes == Shapes::OfUvs) problem.objective = shapes_of_uvs(chart, charts);
   ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
     // The energy falls from far above to near 1: its logarithm tells how far the way is.
