@@ -21,6 +21,8 @@ using What = ChartRepair::What;
 
 // E_2 above which an embedding anew may serve better, and E_d above which UVs have no shape worth keeping.
 constexpr double kShapeLost = 1.5;
+// E_d above which a chart that was mended in place is all but a line: its shape is not worth keeping.
+constexpr double kLine = 100;
 
 /// One chart after its repair, or why it has none.
 struct Mended {
@@ -99,7 +101,8 @@ Mended mend_disk(const Chart& chart, const std::vector<char>& bad, const RepairO
     if (const auto parted = part_touching(chart)) return mended(*parted, What::Parted);
   } else if (!mostly_bad(chart, bad)) {
     in_place = untangle_chart(chart, options.may_overlap, options.threads, monitor);
-    if (in_place && distortion_to_good(chart, *in_place) < kShapeLost) return mended(*in_place, What::Untangled);
+    const bool kept = in_place && distortion_to_good(chart, *in_place) < kShapeLost && energy(*in_place) < kLine;
+    if (kept) return mended(*in_place, What::Untangled);
   }
   const auto start = spread_out(chart, options.threads, monitor);
   if (const auto apart = drawn_apart(chart, start, bad, options, monitor)) return mended(*apart, What::DrawnApart);
