@@ -20,6 +20,8 @@ constexpr double kBackOff = 0.8;      // in a box: the floor of a gap is mostly 
 constexpr double kFarBelow = 3;       // log PE below the target where charts that climb too slowly are given up,
 constexpr int kTrialIterations = 60;  // after so many iterations
 constexpr double kTelling = 1;        // damping up to which a rise of the objective is the price of PE
+constexpr double kCrushed = 0.5;      // a rise under heavy damping that is not waited out
+constexpr int kThousands = 1000;      // with so many charts
 constexpr int kPace = 30;             // iterations over which a pace is taken
 constexpr double kQuickening = 3;     // a pace may grow by so much
 constexpr double kWorthOfPace = 5;    // times the least change: what so many iterations have to bring,
@@ -218,9 +220,10 @@ Counters counted(const Task& task, const Change& change, const Iterate& at, cons
       on_target && quiet && schedule.damping <= kTelling && settled(schedule, task.view(at, schedule.margin), at.price);
   counters.calm = calm ? counters.calm + 1 : 0;
   counters.least_energy = std::min(counters.least_energy, at.energy);
-  // Under heavy damping distortion tells of a collision, which may come apart again.
-  const bool risen = schedule.damping <= kTelling && at.energy > (1 + problem.max_rise) * counters.least_energy;
-  counters.expensive = risen ? counters.expensive + 1 : 0;
+  // Under heavy damping distortion tells of a collision, which may come apart again; with thousands of charts that takes minutes.
+  const double crushed = problem.charts.size() < kThousands ? kInfinite : kCrushed;
+  const double most_rise = schedule.damping <= kTelling ? problem.max_rise : crushed;
+  counters.expensive = at.energy > (1 + most_rise) * counters.least_energy ? counters.expensive + 1 : 0;
   const bool above = !task.within_limit(at);
   counters.distorted = above && hopeless(task, at, change) ? counters.distorted + 2 : above && quiet ? counters.distorted + 1 : 0;
   const bool progress = moved > 1e-5 * (at.energy - 1) + 0.1 * kNegligible || change.pe > 1e-5 * at.pe;
