@@ -13,6 +13,7 @@
 #include "measure/distortion.h"
 #include "reduce/reduce.h"
 #include "repair/bad_triangles.h"
+#include "repair/convex_again.h"
 #include "repair/untangle.h"
 #include "solve/symmetric_dirichlet.h"
 
@@ -78,12 +79,6 @@ Chart stretched(Chart chart) {
   if (!map.allFinite()) return chart;
   for (Vec2& uv : chart.uvs) uv = map * uv;
   return chart;
-}
-
-bool all_guards_hold(Chart chart) {
-  const std::size_t count = chart.guards.size();
-  drop_broken_guards(chart);
-  return chart.guards.size() == count;
 }
 
 /// The disk with its parts evened out; nothing where that made it invalid.
@@ -159,9 +154,10 @@ std::optional<Chart> embed(const Chart& chart, const Chart& start, Shapes shapes
     monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
   });
   if (!(result.energy <= kCollapsed)) return std::nullopt;
-  // Polygons that are convex in the end are guarded from here on.
+  // The start may have had polygons that were not convex and had no guards; those that are in the end are guarded from here on.
   Chart embedded = chart;
   embedded.uvs = std::move(result.uvs[0]);
+  embedded = convex_again(embedded, threads, monitor);
   drop_broken_guards(embedded);
   return embedded;
 }
