@@ -51,6 +51,16 @@ TEST(Hangs, AConeWhoseTipIsManyVerticesAtOnePlaceIsCutOrSqueezed) {
   for (const int candidates : {1, 20}) refine_validly(cone(8), cut_options(candidates));
 }
 
+TEST(Hangs, ThousandsOfChartsArePlacedWithALittleLessGapInsteadOfBent) {
+  const Atlas atlas = shapes::squares(1200);
+  const RefineOptions options{.pe_bound = 0.76};
+  const RefineResult result = testing::refine_soundly(atlas, options);
+  EXPECT_EQ(result.intervention, Intervention::Moved);
+  EXPECT_LT(result.gap.value, Gap{}.value);
+  EXPECT_GE(result.gap.value, 0.3 * Gap{}.value);
+  EXPECT_NE(result.warnings.back().find("charts would have to be bent"), std::string::npos) << result.warnings.back();
+}
+
 TEST(Hangs, APolygonThatIsOnePointInSpaceIsCutOrSqueezed) {
   const Atlas one = polygon_without_size(30);
   Atlas other = one;

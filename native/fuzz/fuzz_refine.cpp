@@ -41,12 +41,23 @@ bool takes_part(const ChartReport& chart) {
   return chart.fate != Fate::Left && chart.fate != Fate::Stacked && chart.fate != Fate::Locked;
 }
 
-/// Of each input face the group of the atlas that it is in, -1 where its chart was left, lies on another one or is locked.
+bool keeps_uvs(const RefineResult& result, int group) {
+  return std::any_of(result.groups.begin(), result.groups.end(),
+                     [&](const GroupReport& report) { return report.group == group && !report.reason.empty(); });
+}
+
+bool says_why(const RefineResult& result) {
+  return std::any_of(result.groups.begin(), result.groups.end(),
+                     [](const GroupReport& report) { return !report.reason.empty(); });
+}
+
+/// Of each input face the group of the atlas that it is in, -1 where its chart was left, lies on another one or is locked, or the
+/// whole group keeps its UVs.
 std::vector<int> atlas_of_faces(const Atlas& atlas, const RefineOptions& options, const RefineResult& result) {
   std::vector<int> groups = options.groups;
   groups.resize(atlas.face_count(), 0);
   for (int f = 0; f < atlas.face_count(); ++f) {
-    if (!takes_part(result.charts[result.face_charts[f]])) groups[f] = -1;
+    if (!takes_part(result.charts[result.face_charts[f]]) || keeps_uvs(result, groups[f])) groups[f] = -1;
   }
   return groups;
 }
@@ -84,7 +95,7 @@ void check_validity(const Atlas& atlas, const RefineOptions& options, const Refi
 
 void check(const Atlas& atlas, const RefineOptions& options, const RefineResult& result) {
   check_validity(atlas, options, result);
-  require(result.bound_met || options.best_effort, "the bound was missed without a word");
+  require(result.bound_met || options.best_effort || says_why(result), "the bound was missed without a word");
   const bool any_in = std::any_of(result.charts.begin(), result.charts.end(), takes_part);
   require(!any_in || !result.bound_met || result.after.pe_fixed_aspect >= options.pe_bound, "the bound does not hold");
 }

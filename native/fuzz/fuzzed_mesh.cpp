@@ -35,7 +35,7 @@ double number(FuzzedDataProvider& data) {
   return data.ConsumeIntegralInRange<int>(-64, 64) / 16.0;
 }
 
-/// Quads of a grid, its surface lifted to a wave; `hole` leaves one out.
+/// Quads of a grid, its surface lifted to a wave; `hole` leaves one of several out.
 void add_grid(FuzzedDataProvider& data, Draft& draft) {
   const int columns = data.ConsumeIntegralInRange(1, 6), rows = data.ConsumeIntegralInRange(1, 6);
   const int hole = data.ConsumeIntegralInRange(-1, columns * rows - 1);
@@ -47,7 +47,7 @@ void add_grid(FuzzedDataProvider& data, Draft& draft) {
     for (int i = 0; i <= columns; ++i) draft.add_position({uv(i, j).x(), uv(i, j).y(), bend * std::sin(2.0 * i) * std::cos(j)});
   }
   for (int k = 0; k < columns * rows; ++k) {
-    if (k == hole) continue;
+    if (k == hole && columns * rows > 1) continue;
     const int i = k % columns, j = k / columns, v = first + j * (columns + 1) + i;
     draft.add_face({v, v + 1, v + columns + 2, v + columns + 1}, {uv(i, j), uv(i + 1, j), uv(i + 1, j + 1), uv(i, j + 1)});
   }

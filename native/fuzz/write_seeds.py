@@ -25,7 +25,21 @@ OBJ_TEXTS = (
     "\xff\xfe",
     '{"asset":{}}',
 )
-REFINE_SEEDS = 48
+REFINE_SEEDS = 24  # of each kind
+
+
+def small_mesh(rng):
+    """Few bytes: what they leave open is as small and as plain as it can be."""
+    return rng.randbytes(rng.randint(4, 40))
+
+
+def options_of_grid(rng):
+    """Any options, of one small grid: a packing of several charts would take a second. Numbers are taken from the end on."""
+    one_part, grid, undamaged = 0, 0, 0
+    columns, rows = rng.randint(0, 2), rng.randint(0, 2)  # beyond the first
+    hole = rng.randint(0, (columns + 1) * (rows + 1))
+    taken = [one_part, grid, columns, rows, hole, *rng.randbytes(3), undamaged]
+    return rng.randbytes(60) + bytes(reversed(taken))
 
 
 def write(folder, name, content):
@@ -38,7 +52,8 @@ def main(root):
         write(root / "fuzz_obj", f"seed{k}", text.encode())
     rng = random.Random(1)
     for k in range(REFINE_SEEDS):
-        write(root / "fuzz_refine", f"seed{k}", rng.randbytes(rng.randint(40, 400)))
+        write(root / "fuzz_refine", f"seed{2 * k}", small_mesh(rng))
+        write(root / "fuzz_refine", f"seed{2 * k + 1}", options_of_grid(rng))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 // Place, squeeze.
 #include "place_and_squeeze.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "atlas_refine/error.h"
@@ -145,13 +146,21 @@ double likely_pe(const Refinement& run, const PlacedCharts& placed, const Freedo
   return packing_efficiency(placed, run.options.box_aspect) * grown(gap) / grown(other);
 }
 
-/// Placed with the first gap or, where no chart bends, with the first with which placing them is enough, if there is one.
+/// How many of the gaps are tried for one with which placing the charts is enough.
+std::size_t gaps_to_place_with(const Refinement& run, std::size_t charts, const Freedoms& freedom, std::size_t gaps) {
+  // Thousands of charts are in each other's way: bending them takes a minute, and a little less gap spares it.
+  constexpr std::size_t kThousands = 1000, kLittleLess = 3;
+  if (none_bends(freedom)) return gaps;
+  return charts >= kThousands && !run.options.relax ? std::min(gaps, kLittleLess) : 1;
+}
+
+/// Placed with the first gap, or with the first of those to be tried with which placing the charts is enough.
 PlacedCharts place_with(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, double good_enough,
                         std::vector<Gap>& gaps) {
   constexpr double kPromising = 0.99;  // of the bound
   PlacedCharts placed = place(run, charts, freedom, gaps.front(), good_enough);
-  if (!none_bends(freedom) || holds_bound(run, placed, kRounding)) return placed;
-  for (std::size_t k = 1; k < gaps.size() && !run.monitor.finishing(); ++k) {
+  if (holds_bound(run, placed, kRounding)) return placed;
+  for (std::size_t k = 1; k < gaps_to_place_with(run, charts.size(), freedom, gaps.size()) && !run.monitor.finishing(); ++k) {
     if (likely_pe(run, placed, freedom, gaps.front(), gaps[k]) < kPromising * run.options.pe_bound) continue;
     PlacedCharts closer = place(run, charts, freedom, gaps[k], run.options.pe_bound);
     if (!holds_bound(run, closer, kRounding)) continue;
@@ -195,6 +204,7 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
   require_no_needles(pieces);
   std::vector<Gap> gaps = gaps_of(run, pieces, freedom);
   const double good_enough = options.relax && !atlas.seams.empty() ? kNearly * options.pe_bound : options.pe_bound;
+  const Gap largest = gaps.front();
   PlacedCharts placed = place_with(run, pieces, freedom, good_enough, gaps);
   if (const Validity valid = certify_charts(placed.charts, points, freedom); !valid.valid())
     throw RefineError(ErrorCode::BadInput, "pack", "charts could not be placed apart: " + valid.problem, valid.chart, valid.face);
@@ -202,7 +212,8 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
   Solution out{.atlas = with_uvs(atlas, uvs_of(placed.charts)), .gap = gaps.front()};
   out.atlas.frame = placed.frame;
   if (holds_bound(run, placed, kRounding) && !(options.relax && !none_bends(freedom))) {
-    warn_of_gap(run, out.gap, kNoRoom);
+    const bool spares_bending = !none_bends(freedom) && out.gap.value < largest.value;
+    warn_of_gap(run, out.gap, spares_bending ? "with a larger one charts would have to be bent" : kNoRoom);
     return out;
   }
 

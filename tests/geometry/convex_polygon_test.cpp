@@ -44,6 +44,16 @@ TEST(ConvexPolygon, ACornerInTheMiddleOfASideIsNotConvex) {
   EXPECT_FALSE(is_clearly_convex(bulging));
 }
 
+TEST(ConvexPolygon, ANearlyStraightCornerIsNotClearlyConvexYetAboveNoise) {
+  std::vector<Vec2> octagon = regular(8);
+  const Vec2 chord = 0.5 * (octagon[0] + octagon[2]);
+  octagon[1] = chord + 0.02 * (octagon[1] - chord);
+  EXPECT_FALSE(is_clearly_convex(octagon));
+  EXPECT_TRUE(is_convex_above_noise(octagon));
+  octagon[1] = chord + 0.1 * (octagon[1] - chord);
+  EXPECT_FALSE(is_convex_above_noise(octagon));
+}
+
 TEST(ConvexPolygon, DartsAndTurnedPolygonsAreNot) {
   const std::vector<Vec2> dart = {{0, 0}, {1, 0}, {0.25, 0.25}, {0, 1}};
   EXPECT_FALSE(is_strictly_convex(dart));

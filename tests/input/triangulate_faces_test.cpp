@@ -61,6 +61,16 @@ TEST(TriangulateFaces, TheEarsOfAConvexPolygonAreGuarded) {
   }
 }
 
+TEST(TriangulateFaces, ANearlyStraightCornerIsGuardedToo) {
+  std::vector<Vec3> octagon = regular(8);
+  const Vec3 chord = 0.5 * (octagon[2] + octagon[4]);
+  octagon[3] = chord + 0.02 * (octagon[3] - chord);
+  const Chart chart = split_charts(one_face(octagon)).charts[0];
+  EXPECT_TRUE(std::any_of(chart.guards.begin(), chart.guards.end(), [](const Guard& guard) {
+    return guard.triangle == Triangle{2, 3, 4};
+  }));
+}
+
 TEST(TriangulateFaces, TheReadersTrianglesAreTaken) {
   Atlas atlas = one_face(regular(5));
   atlas.triangles = {{1, 2, 3}, {3, 4, 1}, {4, 0, 1}};

@@ -195,6 +195,18 @@ TEST(Reduce, ABoundThatTheGapForbidsIsNotReported) {
   checked(problem, result);
 }
 
+TEST(Reduce, WhatFallsTooSlowlyToBeOfUseIsGivenUp) {
+  std::vector<Chart> charts = s_chart();
+  for (Vec2& uv : charts[0].uvs) uv.x() *= 1e-7;
+  const double out_of_reach = 1e-300;
+  ReduceProblem problem{.charts = charts, .least_change = 0, .negligible = 0, .most_energy = out_of_reach, .max_iterations = 120};
+  const ReduceResult given_up = reduce_distortion(problem);
+  EXPECT_EQ(given_up.status, ReduceStatus::OutOfTime);
+  EXPECT_LT(given_up.iterations, problem.max_iterations);
+  problem.most_energy = 1.1;
+  EXPECT_NE(reduce_distortion(problem).status, ReduceStatus::OutOfTime);
+}
+
 TEST(Reduce, OutOfTimeKeepsTheBestState) {
   const std::vector<Chart> charts = s_chart();
   const ReduceProblem problem{.charts = charts, .pe_target = 0.9, .max_iterations = 5};

@@ -30,13 +30,19 @@ Chart sheet(int columns, int rows, bool closed, const Point& point) {
   return testing::charts_of(atlas).at(0);
 }
 
-double embedded_energy(const Chart& chart) {
+std::optional<Chart> embed(const Chart& chart, Shapes shapes, int threads) {
   Monitor monitor;
-  const auto embedded = embed(chart, Shapes::OfSurface, 2, monitor);
+  const auto start = spread_out(chart, threads, monitor);
+  if (!start) return std::nullopt;
+  return embed(chart, *start, shapes, threads, monitor);
+}
+
+double embedded_energy(const Chart& chart) {
+  const auto embedded = embed(chart, Shapes::OfSurface, 2);
   if (!embedded) return std::numeric_limits<double>::infinity();
   testing::expect_certified({*embedded});
   EXPECT_EQ(embedded->triangles, chart.triangles);
-  const auto again = embed(chart, Shapes::OfSurface, 1, monitor);
+  const auto again = embed(chart, Shapes::OfSurface, 1);
   EXPECT_TRUE(testing::same_bits(embedded->uvs, again->uvs));
   return dirichlet_sums(*embedded).best_energy();
 }
@@ -96,8 +102,7 @@ Chart dome() {
 TEST(Embed, QuadsThatWereConvexStayConvex) {
   const Chart chart = dome();
   ASSERT_GT(chart.guards.size(), 0u);
-  Monitor monitor;
-  const auto embedded = embed(chart, Shapes::OfSurface, 2, monitor);
+  const auto embedded = embed(chart, Shapes::OfSurface, 2);
   ASSERT_TRUE(embedded);
   testing::expect_certified({*embedded});
   EXPECT_EQ(embedded->guards.size(), chart.guards.size());
@@ -105,8 +110,7 @@ TEST(Embed, QuadsThatWereConvexStayConvex) {
 
 TEST(Embed, FromValidUvsTheirShapesComeBack) {
   const Chart chart = dome();
-  Monitor monitor;
-  const auto embedded = embed(chart, Shapes::OfUvs, 2, monitor);
+  const auto embedded = embed(chart, Shapes::OfUvs, 2);
   ASSERT_TRUE(embedded);
   EXPECT_LT(dirichlet_sums_between({chart}, {*embedded}).best_energy(), 1.0001);
 }

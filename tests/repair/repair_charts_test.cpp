@@ -72,6 +72,12 @@ TEST(RepairCharts, OneFlippedTriangleInALargeChartKeepsItsShape) {
   }
 }
 
+TEST(RepairCharts, OneFlippedTriangleInAChartThatIsAllButALineHasItEmbeddedAnew) {
+  Atlas atlas = with_vertex_moved(shapes::mesh(shapes::disk(0.5), 0.03), {0.1, 0.05}, {0, 0.045});
+  for (Vec2& uv : atlas.corner_uvs) uv.y() *= 1e-3;
+  EXPECT_EQ(only_repair(atlas).what, What::Embedded);
+}
+
 TEST(RepairCharts, FarFromTheBadTriangleNothingMoves) {
   const Atlas atlas = with_vertex_moved(shapes::mesh(shapes::disk(0.5), 0.03), {0.3, 0}, {0.045, 0});
   const Chart before = testing::charts_of(atlas)[0];

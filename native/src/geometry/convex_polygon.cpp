@@ -11,25 +11,32 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kSmallestShare = 0.05;  // of the ear of a regular polygon
+// Of the ear of a regular polygon: what is clear to see, and what is more than noise.
+constexpr double kClear = 0.05, kAboveNoise = 0.005;
 
-/// Area of an ear of a regular polygon / area of the polygon, times the smallest share.
-double least_ear(std::size_t corners) {
+/// Area of an ear of a regular polygon / area of the polygon.
+double regular_ear(std::size_t corners) {
   const double sine = std::sin(std::numbers::pi / static_cast<double>(corners));
-  return kSmallestShare * 4 * sine * sine / static_cast<double>(corners);
+  return 4 * sine * sine / static_cast<double>(corners);
 }
 
 /// `ear` gives the doubled area of a triangle of corners.
 template <class Ear>
-bool ears_are_large(std::size_t corners, Ear&& ear) {
+bool ears_are_large(std::size_t corners, double share, Ear&& ear) {
   double doubled = 0;
   for (std::size_t i = 2; i < corners; ++i) doubled += ear({0, static_cast<int>(i) - 1, static_cast<int>(i)});
   if (!(doubled > 0)) return false;
   for (std::size_t i = 0; i < corners; ++i) {
     const Triangle triangle = corner_triangle(static_cast<int>(i), static_cast<int>(corners));
-    if (!(ear(triangle) >= least_ear(corners) * doubled)) return false;
+    if (!(ear(triangle) >= share * regular_ear(corners) * doubled)) return false;
   }
   return true;
+}
+
+bool is_convex_with(double share, std::span<const Vec2> polygon) {
+  return is_strictly_convex(polygon) && ears_are_large(polygon.size(), share, [&](const Triangle& t) {
+           return doubled_area(polygon[t[0]], polygon[t[1]], polygon[t[2]]);
+         });
 }
 
 }  // namespace
@@ -49,11 +56,9 @@ bool is_strictly_convex(std::span<const Vec2> polygon) {
   return true;
 }
 
-bool is_clearly_convex(std::span<const Vec2> polygon) {
-  if (!is_strictly_convex(polygon)) return false;
-  return ears_are_large(polygon.size(),
-                        [&](const Triangle& t) { return doubled_area(polygon[t[0]], polygon[t[1]], polygon[t[2]]); });
-}
+bool is_clearly_convex(std::span<const Vec2> polygon) { return is_convex_with(kClear, polygon); }
+
+bool is_convex_above_noise(std::span<const Vec2> polygon) { return is_convex_with(kAboveNoise, polygon); }
 
 bool is_clearly_convex(std::span<const Vec3> polygon) {
   const auto normal = [&](const Triangle& t) -> Vec3 {
@@ -62,7 +67,7 @@ bool is_clearly_convex(std::span<const Vec3> polygon) {
   Vec3 sum = Vec3::Zero();
   for (int i = 2; i < static_cast<int>(polygon.size()); ++i) sum += normal({0, i - 1, i});
   const Vec3 axis = sum.normalized();
-  return ears_are_large(polygon.size(), [&](const Triangle& t) { return normal(t).dot(axis); });
+  return ears_are_large(polygon.size(), kClear, [&](const Triangle& t) { return normal(t).dot(axis); });
 }
 
 }  // namespace atlas_refine

@@ -90,7 +90,7 @@ bool same_triangle(Triangle a, Triangle b) {
 /// What else than its own triangles is to stay positive; see triangulate_faces().
 std::vector<Triangle> guards_of(const Outline& outline, const FaceReading& reading, const std::vector<Triangle>& own) {
   std::vector<Triangle> wanted;
-  if (reading.diagonals && (outline.size() == 4 || is_clearly_convex(outline.uvs))) {
+  if (reading.diagonals && (outline.size() == 4 || is_convex_above_noise(outline.uvs))) {
     for (int i = 0; i < outline.size(); ++i) wanted.push_back(corner_triangle(i, outline.size()));
   } else if (reading.fan) {
     wanted = polygon_fan(outline.size());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "reduce/contact_set.h"
 #include "reduce/model.h"
@@ -19,6 +20,12 @@ constexpr double kBackOff = 0.8;      // in a box: the floor of a gap is mostly 
 constexpr double kFarBelow = 3;       // log PE below the target where charts that climb too slowly are given up,
 constexpr int kTrialIterations = 60;  // after so many iterations
 constexpr double kTelling = 1;        // damping up to which a rise of the objective is the price of PE
+constexpr double kCrushed = 0.5;      // a rise under heavy damping that is not waited out
+constexpr int kThousands = 1000;      // with so many charts
+constexpr int kPace = 30;             // iterations over which a pace is taken
+constexpr double kQuickening = 3;     // a pace may grow by so much
+constexpr double kWorthOfPace = 5;    // times the least change: what so many iterations have to bring,
+constexpr double kWorthOfJam = 5e-6;  // and where charts press against each other
 
 /// Where the iteration is.
 struct Iterate {
@@ -40,7 +47,10 @@ struct Step {
 /// Iterations in a row of one kind.
 struct Counters {
   int calm = 0, idle = 0, expensive = 0, distorted = 0;
+  int unrewarded = 0;              ///< since the objective at the bound has last fallen by what is worth a pace
+  double rewarded_at = kInfinite;  ///< the objective then
   double least_energy = kInfinite;
+  double pace_energy = kInfinite;  ///< the objective where the present pace began
 };
 
 /// The problem with what its tests need.
@@ -179,6 +189,26 @@ bool too_far(const Task& task, const Iterate& at, const Schedule& schedule, doub
   return std::log(at.pe / first_pe) / iteration * (task.problem.max_iterations - iteration) < deficit;
 }
 
+/// The same without a box, where all that counts is the objective.
+bool too_slow(const Task& task, const Iterate& at, int iteration, Counters& counters) {
+  const double useful = task.problem.most_energy;
+  if (useful == 0 || iteration % kPace != 0) return false;
+  const double before = std::exchange(counters.pace_energy, at.energy);
+  const double paces = static_cast<double>(task.problem.max_iterations - iteration) / kPace;
+  return std::isfinite(before) && kQuickening * paces * std::log(before / at.energy) < std::log(at.energy / useful);
+}
+
+/// Where iterations at the bound go on and on, yet bring next to nothing.
+void count_unrewarded(const Task& task, const Iterate& at, const Schedule& schedule, Counters& counters) {
+  if (!task.holds_bound(at) || !task.within_limit(at)) return;
+  const ReduceProblem& problem = task.problem;
+  const double worth =
+      kWorthOfPace * problem.least_change * (at.energy - 1) + (schedule.damping > kTelling ? kWorthOfJam : problem.negligible);
+  const bool rewarded = !(at.energy > counters.rewarded_at - worth);
+  counters.unrewarded = rewarded ? 0 : counters.unrewarded + 1;
+  if (rewarded) counters.rewarded_at = at.energy;
+}
+
 Counters counted(const Task& task, const Change& change, const Iterate& at, const Schedule& schedule, Counters counters) {
   const ReduceProblem& problem = task.problem;
   const double deficit = task.deficit(at, schedule.margin);
@@ -190,13 +220,15 @@ Counters counted(const Task& task, const Change& change, const Iterate& at, cons
       on_target && quiet && schedule.damping <= kTelling && settled(schedule, task.view(at, schedule.margin), at.price);
   counters.calm = calm ? counters.calm + 1 : 0;
   counters.least_energy = std::min(counters.least_energy, at.energy);
-  // Under heavy damping distortion tells of a collision, which may come apart again.
-  const bool risen = schedule.damping <= kTelling && at.energy > (1 + problem.max_rise) * counters.least_energy;
-  counters.expensive = risen ? counters.expensive + 1 : 0;
+  // Under heavy damping distortion tells of a collision, which may come apart again; with thousands of charts that takes minutes.
+  const double crushed = problem.charts.size() < kThousands ? kInfinite : kCrushed;
+  const double most_rise = schedule.damping <= kTelling ? problem.max_rise : crushed;
+  counters.expensive = at.energy > (1 + most_rise) * counters.least_energy ? counters.expensive + 1 : 0;
   const bool above = !task.within_limit(at);
   counters.distorted = above && hopeless(task, at, change) ? counters.distorted + 2 : above && quiet ? counters.distorted + 1 : 0;
   const bool progress = moved > 1e-5 * (at.energy - 1) + 0.1 * kNegligible || change.pe > 1e-5 * at.pe;
   counters.idle = progress ? 0 : counters.idle + 1;
+  count_unrewarded(task, at, schedule, counters);
   return counters;
 }
 
@@ -206,6 +238,7 @@ std::optional<ReduceStatus> ended(const Task& task, const Iterate& at, const Sch
   const bool holds = task.holds_bound(at);
   if (holds && counters.calm >= 2) return task.within_limit(at) ? ReduceStatus::Converged : ReduceStatus::TooDistorted;
   if (holds && problem.enough_distortion > 0 && at.energy <= problem.enough_distortion) return ReduceStatus::Enough;
+  if (holds && task.within_limit(at) && counters.unrewarded >= kPace) return ReduceStatus::Converged;
   if (counters.distorted >= 4) return ReduceStatus::TooDistorted;
   if (!holds && problem.max_rise > 0 && counters.expensive >= 3) return ReduceStatus::TooExpensive;
   if (counters.idle >= kStallIterations || wedged(schedule, at.energy, first_energy)) return ReduceStatus::Stalled;
@@ -286,7 +319,7 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
       status = *end;
       break;
     }
-    if (too_far(task, at, schedule, first_pe, iteration)) break;
+    if (too_far(task, at, schedule, first_pe, iteration) || too_slow(task, at, iteration, counters)) break;
     const auto step = compute_step(task, at, schedule, slots, system);
     if (!step) {
       status = ReduceStatus::Stalled;

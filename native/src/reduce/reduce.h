@@ -42,6 +42,8 @@ struct ReduceProblem {
   double negligible = 1e-8;      ///< or by less than this; what the present price gives for a change of PE is left out
   double max_distortion = 0;     ///< of the surface's E_d: give up the climb once it is exceeded at its least; 0 = no limit
   double max_rise = 0;  ///< give up the climb where the objective exceeds its least so far by this factor - 1; 0 = no limit
+  double most_energy =
+      0;  ///< give up where the objective falls so slowly that it ends far above this; 0 = no limit; without a box
   int max_iterations = 600;
   int threads = 1;
   /// Charts that only move count in the objective, by what they have; fixed ones do not.

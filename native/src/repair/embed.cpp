@@ -13,6 +13,7 @@
 #include "measure/distortion.h"
 #include "reduce/reduce.h"
 #include "repair/bad_triangles.h"
+#include "repair/convex_again.h"
 #include "repair/untangle.h"
 #include "solve/symmetric_dirichlet.h"
 
@@ -80,12 +81,6 @@ Chart stretched(Chart chart) {
   return chart;
 }
 
-bool all_guards_hold(Chart chart) {
-  const std::size_t count = chart.guards.size();
-  drop_broken_guards(chart);
-  return chart.guards.size() == count;
-}
-
 /// The disk with its parts evened out; nothing where that made it invalid.
 std::optional<Chart> evened(const Chart& disk, bool valid, int threads, Monitor& monitor) {
   std::vector<Vec2> filled = disk.uvs;
@@ -136,16 +131,23 @@ Objective shapes_of_uvs(const Chart& chart, const std::vector<Chart>& pieces) {
 
 }  // namespace
 
-std::optional<Chart> embed(const Chart& chart, Shapes shapes, int threads, Monitor& monitor) {
+std::optional<Chart> spread_out(const Chart& chart, int threads, Monitor& monitor) {
   std::optional<Chart> start = on_disk(chart, threads, monitor);
   if (!start) return std::nullopt;
   drop_broken_guards(*start);
   if (Chart better = stretched(*start); certify_charts({better}).valid()) start = std::move(better);
-  const std::vector<Chart> charts = {*start};
+  return start;
+}
+
+std::optional<Chart> embed(const Chart& chart, const Chart& start, Shapes shapes, int threads, Monitor& monitor) {
+  const std::vector<Chart> charts = {start};
   // Shapes may be kept all but exactly: no part of a distortion that is nothing is worth a wait.
   constexpr double kNegligible = 1e-6;
-  ReduceProblem problem{
-      .charts = charts, .gap = {.value = kGapForLargerBox * Gap{}.value}, .negligible = kNegligible, .threads = threads};
+  ReduceProblem problem{.charts = charts,
+                        .gap = {.value = kGapForLargerBox * Gap{}.value},
+                        .negligible = kNegligible,
+                        .most_energy = kCollapsed,
+                        .threads = threads};
   if (shapes == Shapes::OfUvs) problem.objective = shapes_of_uvs(chart, charts);
   ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
     // The energy falls from far above to near 1: its logarithm tells how far the way is.
@@ -153,9 +155,10 @@ std::optional<Chart> embed(const Chart& chart, Shapes shapes, int threads, Monit
     return true;  // nothing valid is there before this has ended
   });
   if (!(result.energy <= kCollapsed)) return std::nullopt;
-  // Polygons that are convex in the end are guarded from here on.
+  // The start may have had polygons that were not convex and had no guards; those that are in the end are guarded from here on.
   Chart embedded = chart;
   embedded.uvs = std::move(result.uvs[0]);
+  embedded = convex_again(embedded, threads, monitor);
   drop_broken_guards(embedded);
   return embedded;
 }

@@ -21,6 +21,8 @@ using What = ChartRepair::What;
 
 // E_2 above which an embedding anew may serve better, and E_d above which UVs have no shape worth keeping.
 constexpr double kShapeLost = 1.5;
+// E_d above which a chart that was mended in place is all but a line: its shape is not worth keeping.
+constexpr double kLine = 100;
 
 /// One chart after its repair, or why it has none.
 struct Mended {
@@ -52,6 +54,12 @@ std::optional<CutAtlas> opened(const Chart& chart, const SidePrices& prices) {
   return atlas;
 }
 
+std::optional<Chart> embed_where(const std::optional<Chart>& start, const Chart& chart, Shapes shapes,
+                                 const RepairOptions& options, Monitor& monitor) {
+  if (!start) return std::nullopt;
+  return embed(chart, *start, shapes, options.threads, monitor);
+}
+
 Mended opened_and_embedded(const Chart& chart, const ChartShape& shape, const SidePrices& prices, const RepairOptions& options,
                            Monitor& monitor) {
   const std::string what = shape.loops == 0 ? "has no boundary" : "has a handle";
@@ -61,7 +69,8 @@ Mended opened_and_embedded(const Chart& chart, const ChartShape& shape, const Si
     const bool forbidden = !prices.empty() && opened(chart, {});
     return unmended(what + " and could not be opened" + (forbidden ? ": edges of --no-seam are in the way" : ""));
   }
-  const auto embedded = embed(cut->pieces[0].mesh, Shapes::OfSurface, options.threads, monitor);
+  const auto start = spread_out(cut->pieces[0].mesh, options.threads, monitor);
+  const auto embedded = embed_where(start, cut->pieces[0].mesh, Shapes::OfSurface, options, monitor);
   if (!embedded) return unmended(what + " and, opened, no embedding of acceptable distortion was found");
   cut->pieces[0].mesh = *embedded;
   return {.atlas = std::move(*cut), .what = What::Opened, .reason = ""};
@@ -77,10 +86,10 @@ bool mostly_bad(const Chart& chart, const std::vector<char>& bad) {
 double energy(const Chart& chart) { return dirichlet_sums(chart).best_energy(); }
 
 /// The chart without overlap and its shape kept; nothing where there was none worth it, or it was lost all the same.
-std::optional<Chart> drawn_apart(const Chart& chart, const std::vector<char>& bad, const RepairOptions& options,
-                                 Monitor& monitor) {
+std::optional<Chart> drawn_apart(const Chart& chart, const std::optional<Chart>& start, const std::vector<char>& bad,
+                                 const RepairOptions& options, Monitor& monitor) {
   if (mostly_bad(chart, bad) || !(sums_of_good(chart).best_energy() < kShapeLost)) return std::nullopt;
-  const auto apart = embed(chart, Shapes::OfUvs, options.threads, monitor);
+  const auto apart = embed_where(start, chart, Shapes::OfUvs, options, monitor);
   if (!apart || !(distortion_to_good(chart, *apart) < kShapeLost)) return std::nullopt;
   return apart;
 }
@@ -92,10 +101,12 @@ Mended mend_disk(const Chart& chart, const std::vector<char>& bad, const RepairO
     if (const auto parted = part_touching(chart)) return mended(*parted, What::Parted);
   } else if (!mostly_bad(chart, bad)) {
     in_place = untangle_chart(chart, options.may_overlap, options.threads, monitor);
-    if (in_place && distortion_to_good(chart, *in_place) < kShapeLost) return mended(*in_place, What::Untangled);
+    const bool kept = in_place && distortion_to_good(chart, *in_place) < kShapeLost && energy(*in_place) < kLine;
+    if (kept) return mended(*in_place, What::Untangled);
   }
-  if (const auto apart = drawn_apart(chart, bad, options, monitor)) return mended(*apart, What::DrawnApart);
-  const auto embedded = embed(chart, Shapes::OfSurface, options.threads, monitor);
+  const auto start = spread_out(chart, options.threads, monitor);
+  if (const auto apart = drawn_apart(chart, start, bad, options, monitor)) return mended(*apart, What::DrawnApart);
+  const auto embedded = embed_where(start, chart, Shapes::OfSurface, options, monitor);
   if (in_place && (!embedded || energy(*in_place) < energy(*embedded))) return mended(*in_place, What::Untangled);
   if (embedded) return mended(*embedded, What::Embedded);
   return unmended("overlaps itself and no embedding of acceptable distortion was found");

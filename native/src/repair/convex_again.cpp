@@ -1,0 +1,82 @@
+// Untangling in place, with broken guards as the flipped triangles.
+#include "repair/convex_again.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "geometry/guards.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+#include "repair/untangle.h"
+
+namespace atlas_refine {
+namespace {
+
+constexpr int kMostRings = 4;          // of elements around the broken guards, that may change
+constexpr double kLeastWeight = 1e-3;  // of an element, as a fraction of the mean one
+
+std::set<int> faces_with_guards(const Chart& chart) {
+  std::set<int> out;
+  for (const Guard& guard : chart.guards) out.insert(guard.face);
+  return out;
+}
+
+/// One flag per vertex: it lies on a polygon with a broken guard.
+std::vector<char> at_broken_guards(const Chart& chart) {
+  Chart held = chart;
+  drop_broken_guards(held);
+  const std::set<int> whole = faces_with_guards(held);
+  std::vector<char> out(chart.vertex_count(), 0);
+  for (const Guard& guard : chart.guards) {
+    if (whole.contains(guard.face)) continue;
+    for (const int v : guard.triangle) out[v] = 1;
+  }
+  return out;
+}
+
+void widen(const Chart& chart, std::vector<char>& near) {
+  const std::vector<char> before = near;
+  for (const Triangle& t : chart.triangles) {
+    if (!before[t[0]] && !before[t[1]] && !before[t[2]]) continue;
+    for (const int v : t) near[v] = 1;
+  }
+}
+
+/// The triangles and guards at free vertices, all to look as on the surface.
+Tangle tangle_at(const Chart& chart, const std::vector<char>& free) {
+  Tangle out;
+  const double scale = std::sqrt(uv_area(chart) / chart.surface.area());
+  const double least = kLeastWeight * uv_area(chart) / static_cast<double>(chart.triangles.size());
+  for_each_element(chart, [&](const Triangle& t, const RestTriangle& rest, double share, int) {
+    if (rest.area == 0 || (!free[t[0]] && !free[t[1]] && !free[t[2]])) return;
+    out.triangles.push_back(t);
+    out.inverse_edges.push_back(rest.inverse_edges / scale);
+    out.weights.push_back(std::max(least, share * rest.area * scale * scale));
+  });
+  for (const char flag : free) out.fixed.push_back(!flag);
+  return out;
+}
+
+}  // namespace
+
+bool all_guards_hold(Chart chart) {
+  const std::size_t count = chart.guards.size();
+  drop_broken_guards(chart);
+  return chart.guards.size() == count;
+}
+
+Chart convex_again(const Chart& chart, int threads, Monitor& monitor) {
+  if (all_guards_hold(chart)) return chart;
+  std::vector<char> free = at_broken_guards(chart);
+  for (int rings = 0; rings <= kMostRings; ++rings, widen(chart, free)) {
+    auto uvs = untangle(tangle_at(chart, free), chart.uvs, threads, monitor);
+    if (!uvs) continue;
+    Chart mended = chart;
+    mended.uvs = std::move(*uvs);
+    if (all_guards_hold(mended) && certify_charts({mended}).valid()) return mended;
+  }
+  return chart;
+}
+
+}  // namespace atlas_refine
