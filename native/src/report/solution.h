@@ -28,7 +28,7 @@ struct Solution {
   Gap gap;         ///< that is kept
   Ended ended = Ended::NotRun;
   double price = 0;
-  WarmStart end = {};  ///< where it was squeezed: for what goes on from here
+  WarmStart end = {};            ///< where it was squeezed: for what goes on from here
   std::vector<int> re_embedded;  ///< charts
   std::optional<RectangleReport> rectangles;
   std::optional<CutReport> cuts;
