@@ -92,14 +92,18 @@ class _Result:
 
     def _draw_result(self, layout, done):
         before, after = done.result.before, done.result.after
-        layout.label(text=f"{done.title}: {what_was_done(done.result)}", icon="CHECKMARK" if done.result.bound_met else "ERROR")
+        layout.label(
+            text=f"{done.title}: {what_was_done(done.result, done.max_distortion)}",
+            icon="CHECKMARK" if done.result.bound_met else "ERROR",
+        )
         now = percent(after.pe_fixed_aspect, down=True)
         layout.label(text=f"{use(before, done.is_free, done.reached_beyond)} -> {now}")
         for group in done.result.groups:
             held = percent(group.after.pe_fixed_aspect, down=True)
             layout.label(text=f"{group.name or done.title}: {percent(group.before.pe_fixed_aspect)} -> {held}")
         layout.label(text=distortion(after).capitalize())
-        layout.label(text=new_seams(done.result).capitalize())
+        for line in new_seams(done.result):
+            layout.label(text=line.capitalize())
         for line in density_lines(done.density):
             layout.label(text=line)
         if done.result.cut is not None:

@@ -37,6 +37,7 @@ class Done:
     face_count: int
     is_free: bool
     reached_beyond: bool  # charts lay beside the texture
+    max_distortion: float  # that was asked for; 0: none
     result: object = None
     measures: object = None
     density: object = None  # core.density.Density
@@ -148,7 +149,8 @@ class Atlas:
         density = request.density(self.options, self.texture, self.metres, found.get("result"))
         is_free = not request.arguments["in_texture"]
         beyond = request.reaches_beyond and not is_free
-        return Done(title, request.face_count, is_free, beyond, notes=tuple(self.notes), prints=prints, density=density, **found)
+        fixed = (title, request.face_count, is_free, beyond, self.options.max_distortion)
+        return Done(*fixed, notes=tuple(self.notes), prints=prints, density=density, **found)
 
 
 class Run:
