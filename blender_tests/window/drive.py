@@ -119,6 +119,29 @@ def test_edit_mode_from_the_button():
     assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
 
 
+def test_seams_as_needed_by_clicks():
+    obj = add_mesh(shapes.join(shapes.grid(24, 3, bend=5.0)), name="Sheet")
+    before = uvs(obj)
+    bpy.context.view_layer.objects.active = obj
+    settings = bpy.context.scene.atlas_refine
+    settings.pe_bound, settings.cut, settings.max_distortion = 0.8, "EDGES", 1.03
+    bpy.ops.ed.undo_push(message="Made a mesh")
+    yield from click(SEAMS)
+    yield 0.5
+    yield from click((SEAMS[0], SEAMS[1] + 2 * ROW))
+    yield from until(lambda: bpy.context.scene.atlas_refine.seams == "NEEDED", "the menu does not set the road")
+    tasks().last = None
+    yield from click(BUTTON)
+    yield lambda: tasks().last is not None and not running()
+    yield 0.5
+    picture("needed")
+    assert tasks().last[0].result.cuts.cuts == 2
+    yield from key("Z", ctrl=True)
+    yield from until(lambda: uvs(bpy.data.objects["Sheet"]).tobytes() == before.tobytes(), "one undo does not take it back")
+    settings = bpy.context.scene.atlas_refine
+    settings.seams, settings.max_distortion = "NONE", 0.0
+
+
 def test_rectangles_by_clicks():
     obj = add_mesh(name="Cut")
     bpy.context.view_layer.objects.active = obj
@@ -129,7 +152,7 @@ def test_rectangles_by_clicks():
     yield from click(SEAMS)
     yield 0.5
     picture("seams")
-    yield from click((SEAMS[0], SEAMS[1] + 2 * ROW))  # the menu opens below: None, Rectangles
+    yield from click((SEAMS[0], SEAMS[1] + 3 * ROW))  # the menu opens below: None, As Needed, Rectangles
     yield from until(lambda: bpy.context.scene.atlas_refine.seams == "RECTANGLES", "the menu does not set the road")
     yield 0.5
     picture("rectangles")
