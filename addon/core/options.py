@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the artist asked for, in the engine's words."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
@@ -73,6 +73,10 @@ class Options:
         if self.gap == "PIXELS":
             arguments.update(gap=self.gap_px / self.pixels(texture), gap_unit="long_side")
         return arguments
+
+    def for_trade_off(self):
+        """The limits choose one outcome; for all there are they do not count."""
+        return replace(self, seams="NEEDED", max_distortion=0.0, limit_new_seams=False)
 
     def _arguments_of_cuts(self):
         arguments = {"seam_cost": round(self.seam_cost, 6), "effort": self.effort.lower()}

@@ -42,9 +42,15 @@ def new_seams(result):
         yield f"{growth(result.boundary_growth)} of the charts' borders"
 
 
+def trade_off_lines(points):
+    """(new seams, distortion, cuts) of each outcome that is worth a choice."""
+    for point in points:
+        yield growth(point.boundary_growth) if point.cuts else "none", f"{point.distortion:.3f}", counted(point.cuts, "cut")
+
+
 def growth(fraction):
     """The length of new seams as a part of the borders that there were."""
-    return f"+{100 * fraction:.0f} %" if fraction == 0 or fraction >= 0.01 else f"+{100 * fraction:.2g} %"
+    return f"+{100 * fraction:.0f} %" if fraction >= 0.01 else f"+{100 * fraction:.2g} %"
 
 
 def percent(fraction, down=False):

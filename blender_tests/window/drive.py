@@ -18,6 +18,7 @@ import overlay_tests
 import shapes
 from driver import (
     BUTTON,
+    FOURTH_USE,
     RESULT,
     ROW,
     SEAMS,
@@ -41,7 +42,7 @@ from driver import (
     uvs,
     window,
 )
-from support import add_mesh, enable_addon, packing_efficiency
+from support import MODULE, add_mesh, enable_addon, packing_efficiency
 
 
 def test_the_tab_shows_the_panel():
@@ -138,6 +139,26 @@ def test_seams_as_needed_by_clicks():
     assert tasks().last[0].result.cuts.cuts == 2
     yield from key("Z", ctrl=True)
     yield from until(lambda: uvs(bpy.data.objects["Sheet"]).tobytes() == before.tobytes(), "one undo does not take it back")
+    bpy.ops.uv.atlas_refine_trade_off("INVOKE_DEFAULT")
+    assert running()
+    assert not bpy.ops.uv.atlas_refine_keep_best.poll()
+    yield lambda: not running()
+    yield 0.5
+    picture("trade-off")
+    assert uvs(bpy.data.objects["Sheet"]).tobytes() == before.tobytes()
+    seams, distortion, _ = sys.modules[f"{MODULE}.trade_off"].shown.lines[3]
+    tasks().last = None
+    yield from click(FOURTH_USE)
+    yield lambda: tasks().last is not None and not running()
+    yield 0.5
+    picture("trade-off-used")
+    result = tasks().last[0].result
+    assert (f"+{100 * result.boundary_growth:.0f} %", f"{result.after.distortion:.3f}") == (seams, distortion)
+    yield from key("Z", ctrl=True)
+    yield from until(lambda: uvs(bpy.data.objects["Sheet"]).tobytes() == before.tobytes(), "one undo does not take it back")
+    yield 0.5
+    picture("trade-off-again")
+    settings = bpy.context.scene.atlas_refine
     settings = bpy.context.scene.atlas_refine
     settings.seams, settings.max_distortion = "NONE", 0.0
 

@@ -13,7 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "addon"))
 from core.atlas import AtlasArrays, stored_uvs
 from core.manifold import faces_at_fault
 from core.options import Options, Texture
-from core.summary import figures, growth, headline, notes, percent, what_was_done
+from core.summary import figures, growth, headline, notes, percent, trade_off_lines, what_was_done
 from core.words import plain
 
 
@@ -88,6 +88,11 @@ def test_what_belongs_to_needed_seams_reaches_the_engine_with_them_only():
         assert Options(seams=seams, **asked).engine_arguments() == Options(seams=seams).engine_arguments()
 
 
+def test_a_trade_off_is_asked_for_without_limits():
+    asked = Options(seams="NEEDED", max_distortion=1.01, limit_new_seams=True, effort="FAST", pe_bound=0.7)
+    assert asked.for_trade_off() == Options(seams="NEEDED", effort="FAST", pe_bound=0.7)
+
+
 def test_uvs_that_float32_cannot_hold_are_refused():
     assert stored_uvs(np.array([[0.5, 0.25]])).dtype == np.float32
     with pytest.raises(ValueError, match="single precision"):
@@ -130,7 +135,14 @@ def test_the_words_of_needed_seams():
     assert headline(result).endswith(told)
     assert (result.cuts.cuts, result.after.distortion <= 1.03, what_was_done(result)) == (2, True, "Charts cut, moved and bent")
     assert growth(0.004) == "+0.4 %"
-    assert growth(0.0) == "+0 %"
+
+
+def test_the_lines_of_a_trade_off():
+    options = Options(seams="NEEDED", effort="FAST").for_trade_off()
+    points = atlas_refine.refine(*arc(), trade_off=True, **options.engine_arguments()).cuts.trade_off
+    lines = list(trade_off_lines(points))
+    assert lines[0][0::2] == ("none", "0 cuts")
+    assert lines[1] == (growth(points[1].boundary_growth), f"{points[1].distortion:.3f}", "1 cut")
 
 
 def test_a_limit_that_is_missed_is_told():
