@@ -223,7 +223,7 @@ def _chart_properties():
 
 
 def _cut_properties():
-    """What only Seams As Needed reads."""
+    """What only one kind of Seams reads."""
     return {
         "limit_new_seams": _flag(
             "limit_new_seams",
@@ -260,6 +260,13 @@ def _cut_properties():
                 ("BEST", "Best", "Many: the fewest seams, in several times the time"),
             ],
         ),
+        "candidates": IntProperty(
+            name="Candidates",
+            description="For Seams Rectangles: layouts that are tried. More take longer and may need fewer seams",
+            default=Options.candidates,
+            soft_min=1,
+            soft_max=5000,
+        ),
     }
 
 
@@ -289,13 +296,6 @@ def _advanced_properties():
             "best_effort",
             "Best Effort",
             "Where the wanted use is not reached, take the best valid UV map that was found",
-        ),
-        "candidates": IntProperty(
-            name="Candidates",
-            description="For Seams Rectangles: layouts that are tried. More take longer and may need fewer seams",
-            default=Options.candidates,
-            soft_min=1,
-            soft_max=5000,
         ),
         "seed": IntProperty(
             name="Seed",
