@@ -19,7 +19,9 @@ def draw_main(layout, holder, context):
         text = f"{texture.name}: {texture.width} x {texture.height}" if texture else "No image: square"
         layout.label(text=text, icon="IMAGE_DATA")
     layout.prop(holder, "seams")
-    if holder.seams == "RECTANGLES":
+    if holder.seams == "NEEDED":
+        _draw_needed(layout, holder)
+    if holder.seams != "NONE":
         layout.prop(holder, "cut")
     layout.prop(holder, "gap")
     if holder.gap == "PIXELS":
@@ -35,6 +37,16 @@ def draw_main(layout, holder, context):
     layout.prop(holder, "tiles")
     _draw_uv_map(layout, holder, active)
     layout.prop(holder, "write_to")
+
+
+def _draw_needed(layout, holder):
+    """The two limits that say how much is cut."""
+    layout.prop(holder, "max_distortion")
+    row = layout.row(heading="Most New Seams")
+    row.prop(holder, "limit_new_seams", text="")
+    value = row.row()
+    value.active = holder.limit_new_seams
+    value.prop(holder, "most_new_seams", text="")
 
 
 def _has_materials(obj):
@@ -66,8 +78,15 @@ def draw_protected(layout, holder, context):
 
 
 def draw_advanced(layout, holder):
-    for name in ("relax", "max_distortion", "open_closed", "best_effort"):
-        layout.prop(holder, name)
+    layout.prop(holder, "relax")
+    if holder.seams != "NEEDED":  # there it stands beside Seams
+        layout.prop(holder, "max_distortion")
+    layout.prop(holder, "open_closed")
+    layout.prop(holder, "best_effort")
+    if holder.seams == "NEEDED":
+        layout.prop(holder, "effort")
+        if holder.max_distortion == 0:
+            layout.prop(holder, "seam_cost")
     if holder.seams == "RECTANGLES":
         layout.prop(holder, "sigma")
         layout.prop(holder, "candidates")

@@ -1,51 +1,39 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""uv.atlas_refine: at once in scripts, beside Blender with progress and Esc from a button. And its two helpers, which measure and
-select."""
+"""uv.atlas_refine, and its helpers, which measure, list the trade-off and select."""
 
 import bpy
-from bpy.props import EnumProperty
+from bpy.props import EnumProperty, IntProperty
 
-from . import drawing, engine, presets, tasks
+from . import drawing, engine, presets, tasks, trade_off
 from .bridge import parts as objects
 from .bridge import problems, selection
 from .bridge.mesh import MeshError, find_uv_map
 from .core.presets import PresetError
 from .core.summary import headline, measured, notes
-from .core.words import counted, phase, plain
+from .core.words import counted
 from .properties import all_properties, to_options
-
-POLL_SECONDS = 0.1
-
-
-def poll_objects(cls, context):
-    """Whether there is something to work on; the message says why not."""
-    found = objects.objects_of(context)
-    if not found:
-        cls.poll_message_set("Select a mesh object")
-        return False
-    reasons = [(obj.name, objects.why_not(obj)) for obj in found]
-    if all(reason for _, reason in reasons):
-        cls.poll_message_set(f"{reasons[0][0]}: {reasons[0][1]}")
-        return False
-    if tasks.running is not None:
-        cls.poll_message_set("A refinement is running; Esc cancels it")
-        return False
-    return True
+from .running import Runs, poll_objects, report_problem
 
 
-def report_problem(operator, name, text):
-    text = plain(text)
-    operator.report({"ERROR"}, text if text.startswith(name) else f"{name}: {text}")
-
-
-class UV_OT_atlas_refine(bpy.types.Operator):
+class UV_OT_atlas_refine(Runs, bpy.types.Operator):
     """Move, bend and, where Seams allows it, cut the UV charts of the selected objects until they cover the wanted part of the texture"""
 
     bl_idname = "uv.atlas_refine"
     bl_label = "Refine Atlas"
     bl_options = {"REGISTER", "UNDO", "PRESET"}
 
-    __annotations__ = {**all_properties(), "preset": presets.preset_property()}
+    __annotations__ = {
+        **all_properties(),
+        "preset": presets.preset_property(),
+        "point": IntProperty(
+            name="Point",
+            description="For Seams As Needed: which line of the trade-off the map becomes, from 0 on, whatever the limits; -1: what the "
+            "limits ask for",
+            default=-1,
+            min=-1,
+            options={"HIDDEN", "SKIP_SAVE"},
+        ),
+    }
 
     @classmethod
     def poll(cls, context):
@@ -59,57 +47,16 @@ class UV_OT_atlas_refine(bpy.types.Operator):
         drawing.draw_protected(layout, self, context)
         drawing.draw_advanced(layout, self)
 
-    def execute(self, context):
-        run = self._start(context)
-        if run is None:
-            return {"CANCELLED"}
-        while not run.wait(POLL_SECONDS):  # in steps, so that Ctrl-C is heard
-            pass
-        return self._finish(run)
-
-    def invoke(self, context, _event):
-        if bpy.app.background:
-            return self.execute(context)
-        self._run = self._start(context, beside_window=True)
-        if self._run is None:
-            return {"CANCELLED"}
-        tasks.running = self._run
-        self._shown = ""
-        self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context, event):
-        if event.type == "ESC" and event.value == "PRESS":
-            self._run.cancel()
-            return {"RUNNING_MODAL"}
-        if event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS" and drawing.is_over_uv_or_3d_view(context, event):
-            self._run.keep_best()
-            return {"RUNNING_MODAL"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
-        if not self._run.done:
-            self._show_progress(context)
-            return {"PASS_THROUGH"}
-        self._leave(context)
-        return self._finish(self._run)
-
-    def cancel(self, context):
-        """Blender ends the operator: another file, a closed window."""
-        self._leave(context)
-
     def _start(self, context, beside_window=False):
         try:
             presets.apply_to(self)
         except PresetError as error:
             self.report({"ERROR"}, str(error))
             return None
-        run = tasks.Run(context, to_options(self), beside_window)
-        if run.atlases:
-            return run
-        for name, text in run.problems or [("Atlas Refine", "there is nothing to refine")]:
-            report_problem(self, name, text)
-        return None
+        options = to_options(self)
+        if self.point >= 0:
+            options = options.for_trade_off()
+        return self._begun(tasks.Run(context, options, beside_window, trade_off.keywords(self.point)))
 
     def _finish(self, run):
         if run.cancelled:
@@ -127,22 +74,6 @@ class UV_OT_atlas_refine(bpy.types.Operator):
             self.report({"INFO"}, f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}")
         return {"FINISHED"} if all_done else {"CANCELLED"}
 
-    def _show_progress(self, context):
-        progress, fraction = self._run.progress
-        keys = "stopping" if self._run.finishing else "Enter: stop and keep the best, Esc: cancel"
-        text = f"Refining: {phase(progress.stage)} {100 * fraction:.0f} % ({keys})"
-        if text != self._shown:  # each redraw costs the window time
-            self._shown = text
-            context.workspace.status_text_set(text)
-            drawing.redraw_panels(context)
-
-    def _leave(self, context):
-        tasks.stop_running()
-        context.window_manager.event_timer_remove(self._timer)
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
-        drawing.redraw_panels(context)
-
 
 class UV_OT_atlas_refine_keep_best(bpy.types.Operator):
     """End the refinement now with the best valid UV map that it has found; where none is better than before, nothing is changed"""
@@ -153,7 +84,7 @@ class UV_OT_atlas_refine_keep_best(bpy.types.Operator):
 
     @classmethod
     def poll(cls, _context):
-        return tasks.running is not None and not tasks.running.finishing
+        return tasks.running is not None and tasks.running.writes and not tasks.running.finishing
 
     def execute(self, _context):
         tasks.running.keep_best()
@@ -179,6 +110,34 @@ class UV_OT_atlas_refine_measure(bpy.types.Operator):
         for done in found:
             self.report({"INFO"}, f"{done.title}: {measured(done.measures, done.is_free, done.reached_beyond)}")
         drawing.redraw_panels(context)
+        return {"FINISHED"} if found else {"CANCELLED"}
+
+
+class UV_OT_atlas_refine_trade_off(Runs, bpy.types.Operator):
+    """List what can be had: new seams against distortion, each line to be picked. Nothing is changed; takes several refinements' time"""
+
+    bl_idname = "uv.atlas_refine_trade_off"
+    bl_label = "Show Trade-off"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context):
+        return poll_objects(cls, context)
+
+    def _start(self, context, beside_window=False):
+        options = to_options(context.scene.atlas_refine).for_trade_off()
+        return self._begun(trade_off.Search(context, options, beside_window))
+
+    def _finish(self, run):
+        if run.cancelled:
+            self.report({"INFO"}, "Stopped; there is no trade-off to show")
+            return {"CANCELLED"}
+        found = run.finish()
+        for name, text in run.problems:
+            report_problem(self, name, text)
+        for seams, distortion, cuts in found:
+            self.report({"INFO"}, f"{run.atlases[0].title}: new seams {seams} ({cuts}), distortion {distortion}")
+        drawing.redraw_panels(bpy.context)
         return {"FINISHED"} if found else {"CANCELLED"}
 
 
@@ -238,16 +197,24 @@ class UV_OT_atlas_refine_select_problems(bpy.types.Operator):
         self.report({"INFO"}, f"{obj.name}: {', '.join(words) or 'no problems'}")
 
 
-CLASSES = (UV_OT_atlas_refine, UV_OT_atlas_refine_keep_best, UV_OT_atlas_refine_measure, UV_OT_atlas_refine_select_problems)
+CLASSES = (
+    UV_OT_atlas_refine,
+    UV_OT_atlas_refine_keep_best,
+    UV_OT_atlas_refine_measure,
+    UV_OT_atlas_refine_trade_off,
+    UV_OT_atlas_refine_select_problems,
+)
 
 
 def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     tasks.register()
+    trade_off.register()
 
 
 def unregister():
+    trade_off.unregister()
     tasks.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -3,12 +3,12 @@
 
 import bpy
 
-from . import drawing, operators, overlay_settings, presets, tasks
+from . import drawing, operators, overlay_settings, presets, tasks, trade_off
 from .bridge import versions
 from .core.density import density_lines
 from .core.summary import distortion, faces_after, figures, measured, new_seams, notes, percent, use, what_was_done
 from .core.words import counted, phase
-from .properties import copy_options
+from .properties import copy_options, to_options
 
 MOST_NOTES = 6
 
@@ -37,8 +37,9 @@ class _Main:
         if tasks.running is not None:
             progress, fraction = tasks.running.progress
             versions.progress_bar(self.layout, fraction, phase(progress.stage).capitalize())
-            self.layout.operator(operators.UV_OT_atlas_refine_keep_best.bl_idname, icon="CHECKMARK")
-            self.layout.label(text="Enter does so too, Esc cancels")
+            if tasks.running.writes:
+                self.layout.operator(operators.UV_OT_atlas_refine_keep_best.bl_idname, icon="CHECKMARK")
+            self.layout.label(text="Enter does so too, Esc cancels" if tasks.running.writes else "Esc cancels")
         else:
             row = self.layout.row()
             row.scale_y = 1.4
@@ -47,6 +48,33 @@ class _Main:
         row = self.layout.row(align=True)
         row.operator(operators.UV_OT_atlas_refine_measure.bl_idname, text="Measure")
         row.operator(operators.UV_OT_atlas_refine_select_problems.bl_idname, text="Select Problems")
+
+
+class _TradeOff:
+    bl_label = "Trade-off"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.scene.atlas_refine.seams == "NEEDED"
+
+    def draw(self, context):
+        self.layout.operator_context = "INVOKE_DEFAULT"
+        self.layout.operator(operators.UV_OT_atlas_refine_trade_off.bl_idname)
+        if trade_off.shown is None:
+            return
+        reason = trade_off.why_not(to_options(context.scene.atlas_refine))
+        if reason:
+            self.layout.label(text=reason, icon="INFO")
+            return
+        grid = self.layout.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
+        for text in ("Seams", "Distortion", ""):
+            grid.label(text=text)
+        for point, (seams, distortion_of_it, _) in enumerate(trade_off.shown.lines):
+            grid.label(text=seams)
+            grid.label(text=distortion_of_it)
+            button = grid.operator(operators.UV_OT_atlas_refine.bl_idname, text="Use")
+            copy_options(trade_off.shown.options, button)
+            button.point = point
 
 
 class _Protected:
@@ -92,14 +120,18 @@ class _Result:
 
     def _draw_result(self, layout, done):
         before, after = done.result.before, done.result.after
-        layout.label(text=f"{done.title}: {what_was_done(done.result)}", icon="CHECKMARK" if done.result.bound_met else "ERROR")
+        layout.label(
+            text=f"{done.title}: {what_was_done(done.result, done.max_distortion)}",
+            icon="CHECKMARK" if done.result.bound_met else "ERROR",
+        )
         now = percent(after.pe_fixed_aspect, down=True)
         layout.label(text=f"{use(before, done.is_free, done.reached_beyond)} -> {now}")
         for group in done.result.groups:
             held = percent(group.after.pe_fixed_aspect, down=True)
             layout.label(text=f"{group.name or done.title}: {percent(group.before.pe_fixed_aspect)} -> {held}")
         layout.label(text=distortion(after).capitalize())
-        layout.label(text=new_seams(done.result).capitalize())
+        for line in new_seams(done.result):
+            layout.label(text=line.capitalize())
         for line in density_lines(done.density):
             layout.label(text=line)
         if done.result.cut is not None:
@@ -161,6 +193,7 @@ def _panels():
         result = f"{main}_result"
         for name, panel, parent in (
             (main, _Main, None),
+            (f"{main}_trade_off", _TradeOff, main),
             (f"{main}_protected", _Protected, main),
             (f"{main}_advanced", _Advanced, main),
             (f"{main}_overlay", _Overlay, main),

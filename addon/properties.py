@@ -25,6 +25,12 @@ def pe_bound_property(**more):
 SEAMS = [
     ("NONE", "None", "Charts move and bend; no seam is added and the mesh stays as it is", 0),
     (
+        "NEEDED",
+        "As Needed",
+        "Charts are cut only where that spares much bending, one cut after the other: few seams, little distortion",
+        2,
+    ),
+    (
         "RECTANGLES",
         "Rectangles (Liu et al. 2019)",
         "Charts are cut towards rectangles, which pack: adds seams, and bends the charts less",
@@ -216,6 +222,54 @@ def _chart_properties():
     }
 
 
+def _cut_properties():
+    """What only one kind of Seams reads."""
+    return {
+        "limit_new_seams": _flag(
+            "limit_new_seams",
+            "Limit New Seams",
+            "For Seams As Needed: cut no more than Most New Seams says, whatever that spares",
+        ),
+        "most_new_seams": FloatProperty(
+            name="Most New Seams",
+            description="How much longer cuts may make the borders of all charts together, on the surface: at 20 % a map whose "
+            "borders are 10 m long has 12 m at most. Both sides of a seam count",
+            default=Options.most_new_seams,
+            min=0.0,
+            soft_max=100.0,
+            max=10000.0,
+            precision=0,
+            subtype="PERCENTAGE",
+        ),
+        "seam_cost": FloatProperty(
+            name="Seam Cost",
+            description="For Seams As Needed without a Largest Distortion: how much distortion a cut has to spare. At 0.1 one that "
+            "makes the borders 10 % longer has to spare 0.01. Less makes more cuts",
+            default=Options.seam_cost,
+            soft_min=0.0,
+            soft_max=1.0,
+            precision=3,
+        ),
+        "effort": _choice(
+            "effort",
+            "Effort",
+            "For Seams As Needed: how many cuts are tried",
+            [
+                ("FAST", "Fast", "Few: the first result, with more or longer seams than needed"),
+                ("NORMAL", "Normal", "As many as mostly find a good one"),
+                ("BEST", "Best", "Many: the fewest seams, in several times the time"),
+            ],
+        ),
+        "candidates": IntProperty(
+            name="Candidates",
+            description="For Seams Rectangles: layouts that are tried. More take longer and may need fewer seams",
+            default=Options.candidates,
+            soft_min=1,
+            soft_max=5000,
+        ),
+    }
+
+
 def _advanced_properties():
     return {
         "relax": _flag(
@@ -225,12 +279,14 @@ def _advanced_properties():
         ),
         "max_distortion": FloatProperty(
             name="Largest Distortion",
-            description="Refuse results whose mean distortion is above this: 1 is none, 1.05 hardly seen, 2 much. 0: no limit",
+            description="Mean distortion: 1 is none, 1.05 hardly seen, 2 much. With Seams As Needed charts are cut until it is no "
+            "more than this, 0: wherever a cut pays. Else results above it are refused, 0: no limit",
             default=Options.max_distortion,
             soft_min=0.0,
             soft_max=4.0,
             precision=3,
         ),
+        **_cut_properties(),
         "open_closed": _flag(
             "open_closed",
             "Open Closed Charts",
@@ -240,13 +296,6 @@ def _advanced_properties():
             "best_effort",
             "Best Effort",
             "Where the wanted use is not reached, take the best valid UV map that was found",
-        ),
-        "candidates": IntProperty(
-            name="Candidates",
-            description="For Seams Rectangles: layouts that are tried. More take longer and may need fewer seams",
-            default=Options.candidates,
-            soft_min=1,
-            soft_max=5000,
         ),
         "seed": IntProperty(
             name="Seed",

@@ -37,6 +37,7 @@ class Done:
     face_count: int
     is_free: bool
     reached_beyond: bool  # charts lay beside the texture
+    max_distortion: float  # that was asked for; 0: none
     result: object = None
     measures: object = None
     density: object = None  # core.density.Density
@@ -67,9 +68,9 @@ class Atlas:
         self.notes = [note for obj in objs for note in _notes(obj)]
         self.job = None
 
-    def start(self, threads):
+    def start(self, threads, keywords):
         name = self.title if len(self.parts) == 1 else ""
-        self.job = engine.start(*self.request.joined.arrays(), name=name, threads=threads, **self.request.arguments)
+        self.job = engine.start(*self.request.joined.arrays(), name=name, threads=threads, **self.request.arguments, **keywords)
 
     def write(self, result):
         """Writes the result, or raises one of FAILURES with all meshes as they were."""
@@ -124,9 +125,13 @@ class Atlas:
         return seams
 
     def _done(self, result, maps, seams=()):
-        prints = tuple((part.name, uv_map, _print(part.name, uv_map)) for part, uv_map in zip(self.parts, maps, strict=True))
+        prints = self.prints(maps)
         new_seams = tuple(zip((part.name for part in self.parts), seams, strict=False))
         return self._shown(prints, self.title, result=result, left=self._left(result), new_seams=new_seams)
+
+    def prints(self, maps):
+        """By which the meshes are known again."""
+        return tuple((part.name, uv_map, _print(part.name, uv_map)) for part, uv_map in zip(self.parts, maps, strict=True))
 
     def _left(self, result):
         """Nothing where faces were divided: their numbers are others now."""
@@ -137,7 +142,7 @@ class Atlas:
 
     def measure(self):
         """What the panel shows of the meshes as they are: a Done for each texture or tile."""
-        prints = tuple((part.name, part.uv_map, _print(part.name, part.uv_map)) for part in self.parts)
+        prints = self.prints([part.uv_map for part in self.parts])
         box = {name: self.request.arguments[name] for name in ("box_aspect", "in_texture")}
         for name, arrays in self.request.boxes():
             measures = engine.measure(*arrays, **box)
@@ -148,15 +153,19 @@ class Atlas:
         density = request.density(self.options, self.texture, self.metres, found.get("result"))
         is_free = not request.arguments["in_texture"]
         beyond = request.reaches_beyond and not is_free
-        return Done(title, request.face_count, is_free, beyond, notes=tuple(self.notes), prints=prints, density=density, **found)
+        fixed = (title, request.face_count, is_free, beyond, self.options.max_distortion)
+        return Done(*fixed, notes=tuple(self.notes), prints=prints, density=density, **found)
 
 
 class Run:
     """All atlases of one call, one after the other; what comes of them is written at the end."""
 
-    def __init__(self, context, options, beside_window=False):
+    writes = True
+
+    def __init__(self, context, options, beside_window=False, keywords=None):
+        """`keywords`: the engine's, besides those of the options."""
         self.problems = []  # (object's name, why nothing was done with it)
-        self.atlases = read_atlases(context, options, self.problems)
+        self.atlases = self._read(context, options)
         # One core is left to the window.
         automatic = max(1, (os.cpu_count() or 1) - 1) if beside_window else 0
         self._threads = options.threads or preferences.value("threads") or automatic
@@ -164,8 +173,12 @@ class Run:
         self.cancelled = False
         self.finishing = False
         self._at = 0
+        self._keywords = keywords or {}
         if self.atlases:
-            self.atlases[0].start(self._threads)
+            self.atlases[0].start(self._threads, self._keywords)
+
+    def _read(self, context, options):
+        return read_atlases(context, options, self.problems)
 
     @property
     def done(self):
@@ -173,7 +186,7 @@ class Run:
         while self._at < len(self.atlases) and self.atlases[self._at].job.done:
             self._at = len(self.atlases) if self.cancelled or self.finishing else self._at + 1
             if self._at < len(self.atlases):
-                self.atlases[self._at].start(self._threads)
+                self.atlases[self._at].start(self._threads, self._keywords)
         return self._at >= len(self.atlases)
 
     @property
@@ -300,9 +313,14 @@ def last_if_true():
     global last, _in_doubt
     if last is not None and _in_doubt:
         _in_doubt = False
-        if not all(_print(name, uv_map) == known for done in last for name, uv_map, known in done.prints):
+        if not all(is_true_of(done.prints) for done in last):
             last = None
     return last
+
+
+def is_true_of(prints):
+    """Whether the meshes are as they were."""
+    return all(_print(name, uv_map) == known for name, uv_map, known in prints)
 
 
 def new_seams(object_name):

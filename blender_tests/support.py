@@ -47,7 +47,7 @@ def add_mesh(arrays=None, name="Loose", uv_map="UVMap"):
 def set_uvs(layer, uvs):
     flat = np.asarray(uvs, dtype=np.float32).ravel()
     if HAS_UV_ATTRIBUTE:
-        layer.uv.foreach_set("vector", flat)
+        layer.id_data.attributes[layer.name].data.foreach_set("vector", flat)  # layer.uv may be shared with copies
     else:
         layer.data.foreach_set("uv", flat)
 

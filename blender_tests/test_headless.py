@@ -82,6 +82,7 @@ class Headless(unittest.TestCase):
         for when in ("before", "after"):
             self.assertEqual(set(atlas[when]), set(schema["$defs"]["measures"]["properties"]))
         self.assertGreaterEqual(atlas["after"]["pe_fixed_aspect"], 0.75)
+        self.assertEqual((atlas["added_seam_edges"], atlas["boundary_growth"]), (0, 0.0))
 
     def test_only_the_uv_map_differs(self):
         source = self.make("a.blend")
@@ -191,7 +192,7 @@ class Headless(unittest.TestCase):
             (out, "no file is named"),
             ([self.folder / "x*.blend", *out], "no file fits"),
             ([source, *out, "--shard", "3/2"], "1 <= I <= N"),
-            ([source, *out, "--seams", "some"], "seams is one of NONE, RECTANGLES"),
+            ([source, *out, "--seams", "some"], "seams is one of NONE, NEEDED, RECTANGLES"),
             ([source, *out, "--pe-bound", "many"], "pe_bound is a number"),
             ([source, *out, "--pe-bound", "1.2"], "packing"),
             ([source, *out, "--nothing"], "--nothing"),

@@ -48,6 +48,23 @@ class Operator(unittest.TestCase):
         self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7), {"FINISHED"})
         self.assertGreaterEqual(packing_efficiency(obj.data, obj.data.uv_layers.active), 0.7)
 
+    def test_a_copy_of_the_mesh_keeps_its_uvs(self):
+        """Blender's copies share arrays until one of the two is written."""
+        obj = add_mesh()
+        copied = obj.data.copy()
+        before = get_uvs(copied.uv_layers[0]).tobytes()
+        bpy.ops.uv.atlas_refine()
+        self.assertNotEqual(get_uvs(obj.data.uv_layers[0]).tobytes(), before)
+        self.assertEqual(get_uvs(copied.uv_layers[0]).tobytes(), before)
+
+    def test_one_undo_step_takes_it_back(self):
+        before = snapshot(add_mesh())
+        bpy.ops.ed.undo_push(message="before")
+        bpy.ops.uv.atlas_refine("EXEC_DEFAULT", True)
+        self.assertNotEqual(changes(before, snapshot(bpy.data.objects["Loose"])), [])
+        bpy.ops.ed.undo()
+        self.assertEqual(changes(before, snapshot(bpy.data.objects["Loose"])), [])
+
     def test_the_default_bound_is_080(self):
         obj = add_mesh()
         bpy.ops.uv.atlas_refine()

@@ -79,7 +79,7 @@ class Presets(unittest.TestCase):
         for text, reason in (
             ("op.pe_bound = (", "not Python"),
             ("op.nothing = 1", "nothing"),
-            ("op.seams = 'X'", "NONE, RECTANGLES"),
+            ("op.seams = 'X'", "NONE, NEEDED, RECTANGLES"),
         ):
             self.write_own("broken", text)
             self.assert_refused(bpy.ops.uv.atlas_refine, '"Broken" is broken', reason, preset="broken")

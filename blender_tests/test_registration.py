@@ -34,7 +34,7 @@ class Registration(unittest.TestCase):
         self.assertEqual(properties["gap"].default, "PIXELS")
         self.assertEqual(properties["aspect"].default, "TEXTURE")
         self.assertIn("stays empty", properties["aspect"].enum_items["FREE"].description)
-        self.assertEqual([item.identifier for item in properties["seams"].enum_items], ["NONE", "RECTANGLES"])
+        self.assertEqual([item.identifier for item in properties["seams"].enum_items], ["NONE", "NEEDED", "RECTANGLES"])
         self.assertEqual(properties["seams"].default, "NONE")
         self.assertAlmostEqual(properties["sigma"].default, 0.004)
         for panel, space in ((bpy.types.IMAGE_PT_atlas_refine, "IMAGE_EDITOR"), (bpy.types.VIEW3D_PT_atlas_refine, "VIEW_3D")):

@@ -21,7 +21,8 @@ def read_uvs(layer, corner_count):
 def write_uvs(layer, uvs):
     """Stores (C, 2) float32; pins and selection stay."""
     if hasattr(layer, "uv"):  # 3.5 and later
-        layer.uv.foreach_set("vector", uvs.ravel())
+        # Not layer.uv: from 4.2 to 5.0 that writes into arrays that undo steps and copies of the mesh share, and changes them too.
+        layer.id_data.attributes[layer.name].data.foreach_set("vector", uvs.ravel())
     else:
         layer.data.foreach_set("uv", uvs.ravel())
 

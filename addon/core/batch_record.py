@@ -15,6 +15,7 @@ _OF_A_RESULT = (
     "bound_met",
     "before",
     "after",
+    "boundary_growth",
     "gap",
     "price",
     "iterations",

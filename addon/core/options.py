@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the artist asked for, in the engine's words."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class Texture:
 class Options:
     pe_bound: float = 0.8
     aspect: str = "TEXTURE"  # TEXTURE, SQUARE or FREE
-    seams: str = "NONE"  # NONE or RECTANGLES
+    seams: str = "NONE"  # NONE, NEEDED or RECTANGLES
     cut: str = "EDGES"  # EDGES or SPLIT: along the mesh's edges, or across faces
     gap: str = "PIXELS"  # PIXELS or AUTO
     gap_px: float = 4.0
@@ -37,7 +37,11 @@ class Options:
     no_seam: str = ""
     prefer_seam: str = ""
     relax: bool = False
-    max_distortion: float = 0.0  # 0: no limit
+    max_distortion: float = 0.0  # 0: no limit, and with NEEDED cuts where they pay
+    limit_new_seams: bool = False  # of NEEDED, like the three below
+    most_new_seams: float = 20.0  # per cent of the borders of all charts
+    seam_cost: float = 0.1
+    effort: str = "NORMAL"  # FAST, NORMAL or BEST
     open_closed: bool = True
     best_effort: bool = False
     sigma: float = 0.004  # of RECTANGLES, like candidates
@@ -64,8 +68,20 @@ class Options:
             arguments["max_distortion"] = round(self.max_distortion, 6)
         if self.seams == "RECTANGLES":
             arguments.update(sigma=round(self.sigma, 6), candidates=self.candidates)
+        if self.seams == "NEEDED":
+            arguments.update(self._arguments_of_cuts())
         if self.gap == "PIXELS":
             arguments.update(gap=self.gap_px / self.pixels(texture), gap_unit="long_side")
+        return arguments
+
+    def for_trade_off(self):
+        """The limits choose one outcome; for all there are they do not count."""
+        return replace(self, seams="NEEDED", max_distortion=0.0, limit_new_seams=False)
+
+    def _arguments_of_cuts(self):
+        arguments = {"seam_cost": round(self.seam_cost, 6), "effort": self.effort.lower()}
+        if self.limit_new_seams:
+            arguments["max_boundary_growth"] = round(self.most_new_seams / 100, 6)
         return arguments
 
     def box_arguments(self, texture=None):

@@ -23,6 +23,11 @@ class Request:
     def face_count(self):
         return int(self.joined.first_faces[-1])
 
+    @property
+    def box_count(self):
+        """Textures and tiles."""
+        return len(self.arguments.get("group_names", ("",)))
+
     def boxes(self):
         """(name, the four array arguments) of each texture or tile by itself, moved to the first tile."""
         positions, offsets, vertices, uvs = self.joined.arrays()

@@ -11,7 +11,7 @@ def headline(result, is_free=False, reached_beyond=False):
     """One line: texture use, distortion and seams, as "Texture use 48 % -> 80 %, distortion low (worst stretch 1.3), no new seams"."""
     after = result.after
     now = percent(after.pe_fixed_aspect, down=True)
-    return f"{use(result.before, is_free, reached_beyond)} -> {now}, {distortion(after)}, {new_seams(result)}"
+    return f"{use(result.before, is_free, reached_beyond)} -> {now}, {distortion(after)}, {', '.join(new_seams(result))}"
 
 
 def measured(measures, is_free=False, reaches_beyond=False):
@@ -32,7 +32,25 @@ def distortion(measures):
 
 
 def new_seams(result):
-    return f"{counted(result.added_seams, 'new seam edge')}" if result.added_seams else "no new seams"
+    """In parts that a narrow sidebar has room for, one a line."""
+    if not result.added_seams:
+        yield "no new seams"
+        return
+    edges = counted(result.added_seams, "new seam edge")
+    yield f"{counted(result.cuts.cuts, 'cut')}, {edges}" if result.cuts and result.cuts.cuts else edges
+    if result.boundary_growth > 0:  # closed charts that were opened had no borders
+        yield f"{growth(result.boundary_growth)} of the charts' borders"
+
+
+def trade_off_lines(points):
+    """(new seams, distortion, cuts) of each outcome that is worth a choice."""
+    for point in points:
+        yield growth(point.boundary_growth) if point.cuts else "none", f"{point.distortion:.3f}", counted(point.cuts, "cut")
+
+
+def growth(fraction):
+    """The length of new seams as a part of the borders that there were."""
+    return f"+{100 * fraction:.0f} %" if fraction >= 0.01 else f"+{100 * fraction:.2g} %"
 
 
 def percent(fraction, down=False):
@@ -41,8 +59,8 @@ def percent(fraction, down=False):
     return f"{int(value + 1e-6) if down else round(value)} %"
 
 
-def what_was_done(result):
-    """A word for the panel's first line."""
+def what_was_done(result, max_distortion=0.0):
+    """A word for the panel's first line; `max_distortion`: that was asked for, 0 where none was."""
     if result.ended == "stopped" and result.intervention == "unchanged":
         return "Stopped before anything better was found: nothing changed"
     return {
@@ -50,9 +68,16 @@ def what_was_done(result):
         "moved": "Charts moved, shapes kept",
         "squeezed": "Charts moved and bent",
         "cut": "Charts cut, moved and bent",
-    }[result.intervention] + (
-        "" if result.bound_met else "; stopped early" if result.ended == "stopped" else "; the wanted use was not reached"
-    )
+    }[result.intervention] + _what_was_missed(result, max_distortion)
+
+
+def _what_was_missed(result, max_distortion):
+    if result.bound_met:
+        return ""
+    if result.ended == "stopped":
+        return "; stopped early"
+    is_above = 0 < max_distortion < result.after.distortion
+    return "; the distortion stays above its limit" if is_above else "; the wanted use was not reached"
 
 
 def figures(result, face_count):

@@ -6,6 +6,7 @@ import re
 _CHARTS = re.compile(r"\bcharts (\d+(?:, \d+)*)\b(?: and (\d+)\b)?")
 _CHART = re.compile(r"(?:\bface (\d+) of )?\bchart \d+\b")
 _SYMBOLS = {"packing efficiency": "texture use", "E_d": "distortion"}
+_GROWTH = re.compile(r"\ba boundary growth of ([0-9.e+-]*[0-9])")
 _OBJECT = re.compile(r"^object '.*?': ")
 
 
@@ -13,6 +14,7 @@ def plain(message):
     """ "charts 3, 5: mirrored" -> "2 charts: mirrored"; "chart 7 has no area" -> "1 chart has no area"."""
     message = _OBJECT.sub("", message)
     message = _CHARTS.sub(lambda found: f"{found.group(1).count(',') + 1 + bool(found.group(2))} charts", message)
+    message = _GROWTH.sub(lambda found: f"new seams of {100 * float(found.group(1)):.3g} % of the charts' borders", message)
     for symbol, word in _SYMBOLS.items():
         message = message.replace(symbol, word)
     return _CHART.sub(lambda found: f"face {found.group(1)}" if found.group(1) else "1 chart", message)

@@ -18,6 +18,7 @@ import overlay_tests
 import shapes
 from driver import (
     BUTTON,
+    FOURTH_USE,
     RESULT,
     ROW,
     SEAMS,
@@ -41,7 +42,7 @@ from driver import (
     uvs,
     window,
 )
-from support import add_mesh, enable_addon, packing_efficiency
+from support import MODULE, add_mesh, enable_addon, packing_efficiency
 
 
 def test_the_tab_shows_the_panel():
@@ -119,6 +120,49 @@ def test_edit_mode_from_the_button():
     assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
 
 
+def test_seams_as_needed_by_clicks():
+    obj = add_mesh(shapes.join(shapes.grid(24, 3, bend=5.0)), name="Sheet")
+    before = uvs(obj)
+    bpy.context.view_layer.objects.active = obj
+    settings = bpy.context.scene.atlas_refine
+    settings.pe_bound, settings.cut, settings.max_distortion = 0.8, "EDGES", 1.03
+    bpy.ops.ed.undo_push(message="Made a mesh")
+    yield from click(SEAMS)
+    yield 0.5
+    yield from click((SEAMS[0], SEAMS[1] + 2 * ROW))
+    yield from until(lambda: bpy.context.scene.atlas_refine.seams == "NEEDED", "the menu does not set the road")
+    tasks().last = None
+    yield from click(BUTTON)
+    yield lambda: tasks().last is not None and not running()
+    yield 0.5
+    picture("needed")
+    assert tasks().last[0].result.cuts.cuts == 2
+    yield from key("Z", ctrl=True)
+    yield from until(lambda: uvs(bpy.data.objects["Sheet"]).tobytes() == before.tobytes(), "one undo does not take it back")
+    bpy.ops.uv.atlas_refine_trade_off("INVOKE_DEFAULT")
+    assert running()
+    assert not bpy.ops.uv.atlas_refine_keep_best.poll()
+    yield lambda: not running()
+    yield 0.5
+    picture("trade-off")
+    assert uvs(bpy.data.objects["Sheet"]).tobytes() == before.tobytes()
+    seams, distortion, _ = sys.modules[f"{MODULE}.trade_off"].shown.lines[3]
+    tasks().last = None
+    yield from click(FOURTH_USE)
+    yield lambda: tasks().last is not None and not running()
+    yield 0.5
+    picture("trade-off-used")
+    result = tasks().last[0].result
+    assert (f"+{100 * result.boundary_growth:.0f} %", f"{result.after.distortion:.3f}") == (seams, distortion)
+    yield from key("Z", ctrl=True)
+    yield from until(lambda: uvs(bpy.data.objects["Sheet"]).tobytes() == before.tobytes(), "one undo does not take it back")
+    yield 0.5
+    picture("trade-off-again")
+    settings = bpy.context.scene.atlas_refine
+    settings = bpy.context.scene.atlas_refine
+    settings.seams, settings.max_distortion = "NONE", 0.0
+
+
 def test_rectangles_by_clicks():
     obj = add_mesh(name="Cut")
     bpy.context.view_layer.objects.active = obj
@@ -129,7 +173,7 @@ def test_rectangles_by_clicks():
     yield from click(SEAMS)
     yield 0.5
     picture("seams")
-    yield from click((SEAMS[0], SEAMS[1] + 2 * ROW))  # the menu opens below: None, Rectangles
+    yield from click((SEAMS[0], SEAMS[1] + 3 * ROW))  # the menu opens below: None, As Needed, Rectangles
     yield from until(lambda: bpy.context.scene.atlas_refine.seams == "RECTANGLES", "the menu does not set the road")
     yield 0.5
     picture("rectangles")

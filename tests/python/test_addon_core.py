@@ -13,7 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "addon"))
 from core.atlas import AtlasArrays, stored_uvs
 from core.manifold import faces_at_fault
 from core.options import Options, Texture
-from core.summary import figures, headline, notes, percent
+from core.summary import figures, growth, headline, notes, percent, trade_off_lines, what_was_done
 from core.words import plain
 
 
@@ -73,6 +73,26 @@ def test_sigma_goes_with_rectangles_only():
     assert (arguments["seams"], "sigma" in arguments) == ("none", False)
 
 
+def test_the_limits_of_needed_seams_are_the_engines():
+    arguments = Options(seams="NEEDED").engine_arguments()
+    assert (arguments["seams"], arguments["effort"], arguments["seam_cost"]) == ("needed", "normal", 0.1)
+    assert "max_boundary_growth" not in arguments
+    limited = Options(seams="NEEDED", limit_new_seams=True, most_new_seams=float(np.float32(12.3)), effort="BEST")
+    assert limited.engine_arguments()["max_boundary_growth"] == 0.123
+    assert limited.engine_arguments()["effort"] == "best"
+
+
+def test_what_belongs_to_needed_seams_reaches_the_engine_with_them_only():
+    asked = {"limit_new_seams": True, "most_new_seams": 0.0, "seam_cost": -1.0, "effort": "FAST"}
+    for seams in ("NONE", "RECTANGLES"):
+        assert Options(seams=seams, **asked).engine_arguments() == Options(seams=seams).engine_arguments()
+
+
+def test_a_trade_off_is_asked_for_without_limits():
+    asked = Options(seams="NEEDED", max_distortion=1.01, limit_new_seams=True, effort="FAST", pe_bound=0.7)
+    assert asked.for_trade_off() == Options(seams="NEEDED", effort="FAST", pe_bound=0.7)
+
+
 def test_uvs_that_float32_cannot_hold_are_refused():
     assert stored_uvs(np.array([[0.5, 0.25]])).dtype == np.float32
     with pytest.raises(ValueError, match="single precision"):
@@ -96,6 +116,45 @@ def test_the_words_of_a_result():
     assert rows["Faces"] == ("102", "102")
     one_chart = atlas_refine.refine(*shapes.tight())
     assert figures(one_chart, face_count=64)[3] == ("Gap", "-", "-")
+
+
+def arc():
+    """One sheet that bends far in its UVs: whole at 0.8 of a square its distortion is 1.116."""
+    return shapes.join(shapes.grid(24, 3, bend=5.0))
+
+
+def refined_arc(**options):
+    options = Options(seams="NEEDED", stacks="SEPARATE", **options)
+    return atlas_refine.refine(*arc(), **options.engine_arguments())
+
+
+def test_the_words_of_needed_seams():
+    result = refined_arc(max_distortion=1.03)
+    edges = f"{result.added_seams} new seam edges"
+    told = f"{result.cuts.cuts} cuts, {edges}, +{100 * result.boundary_growth:.0f} % of the charts' borders"
+    assert headline(result).endswith(told)
+    assert (result.cuts.cuts, result.after.distortion <= 1.03, what_was_done(result)) == (2, True, "Charts cut, moved and bent")
+    assert growth(0.004) == "+0.4 %"
+
+
+def test_the_lines_of_a_trade_off():
+    options = Options(seams="NEEDED", effort="FAST").for_trade_off()
+    points = atlas_refine.refine(*arc(), trade_off=True, **options.engine_arguments()).cuts.trade_off
+    lines = list(trade_off_lines(points))
+    assert lines[0][0::2] == ("none", "0 cuts")
+    assert lines[1] == (growth(points[1].boundary_growth), f"{points[1].distortion:.3f}", "1 cut")
+
+
+def test_a_limit_that_is_missed_is_told():
+    asked = {"max_distortion": 1.001, "limit_new_seams": True, "most_new_seams": 12.0, "effort": "FAST"}
+    with pytest.raises(atlas_refine.AtlasRefineError) as caught:
+        refined_arc(**asked)
+    assert "no atlas within a distortion of 1.001 and new seams of 12 % of the charts' borders was found" in plain(
+        str(caught.value)
+    )
+    best = refined_arc(best_effort=True, **asked)
+    assert what_was_done(best, 1.001) == "Charts cut, moved and bent; the distortion stays above its limit"
+    assert 0 < best.boundary_growth <= 0.12
 
 
 def test_a_bound_that_is_held_reads_so_and_one_that_is_missed_does_not():

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What operators that run the engine share: at once in scripts, beside Blender with progress and Esc from a button."""
+
+import bpy
+
+from . import drawing, tasks
+from .bridge import parts as objects
+from .core.words import phase, plain
+
+POLL_SECONDS = 0.1
+
+
+def poll_objects(cls, context):
+    """Whether there is something to work on; the message says why not."""
+    found = objects.objects_of(context)
+    if not found:
+        cls.poll_message_set("Select a mesh object")
+        return False
+    reasons = [(obj.name, objects.why_not(obj)) for obj in found]
+    if all(reason for _, reason in reasons):
+        cls.poll_message_set(f"{reasons[0][0]}: {reasons[0][1]}")
+        return False
+    if tasks.running is not None:
+        cls.poll_message_set("A refinement is running; Esc cancels it")
+        return False
+    return True
+
+
+def report_problem(operator, name, text):
+    text = plain(text)
+    operator.report({"ERROR"}, text if text.startswith(name) else f"{name}: {text}")
+
+
+class Runs:
+    """An operator with _start(context, beside_window), a tasks.Run or None, and _finish(run), what Blender is answered."""
+
+    def execute(self, context):
+        run = self._start(context)
+        if run is None:
+            return {"CANCELLED"}
+        while not run.wait(POLL_SECONDS):  # in steps, so that Ctrl-C is heard
+            pass
+        return self._finish(run)
+
+    def invoke(self, context, _event):
+        if bpy.app.background:
+            return self.execute(context)
+        self._run = self._start(context, beside_window=True)
+        if self._run is None:
+            return {"CANCELLED"}
+        tasks.running = self._run
+        self._shown = ""
+        self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC" and event.value == "PRESS":
+            self._run.cancel()
+            return {"RUNNING_MODAL"}
+        if self._is_keep_best(context, event):
+            self._run.keep_best()
+            return {"RUNNING_MODAL"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        if not self._run.done:
+            self._show_progress(context)
+            return {"PASS_THROUGH"}
+        self._leave(context)
+        return self._finish(self._run)
+
+    def cancel(self, context):
+        """Blender ends the operator: another file, a closed window."""
+        self._leave(context)
+
+    def _begun(self, run):
+        """The run; None, with the reasons told, where it has nothing to do."""
+        if run.atlases:
+            return run
+        for name, text in run.problems or [("Atlas Refine", "there is nothing to refine")]:
+            report_problem(self, name, text)
+        return None
+
+    def _is_keep_best(self, context, event):
+        is_enter = event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS"
+        return is_enter and self._run.writes and drawing.is_over_uv_or_3d_view(context, event)
+
+    def _show_progress(self, context):
+        progress, fraction = self._run.progress
+        keys = "stopping" if self._run.finishing else "Enter: stop and keep the best, Esc: cancel"
+        if not self._run.writes:
+            keys = "Esc: cancel"
+        text = f"Refining: {phase(progress.stage)} {100 * fraction:.0f} % ({keys})"
+        if text != self._shown:  # each redraw costs the window time
+            self._shown = text
+            context.workspace.status_text_set(text)
+            drawing.redraw_panels(context)
+
+    def _leave(self, context):
+        tasks.stop_running()
+        context.window_manager.event_timer_remove(self._timer)
+        if context.workspace is not None:
+            context.workspace.status_text_set(None)
+        drawing.redraw_panels(context)
