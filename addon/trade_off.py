@@ -64,8 +64,8 @@ class Search(tasks.Run):
 def why_not(options):
     """Why nothing can be picked from `shown` with these options; empty where it can."""
     if options.for_trade_off() != shown.options:
-        return "The options have changed"
-    return "" if _is_still_true() else "The map has changed; undo brings it back"
+        return "Other options now"
+    return "" if _is_still_true() else "Undo brings it back"
 
 
 def _is_still_true():

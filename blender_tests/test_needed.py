@@ -138,7 +138,7 @@ class TradeOff(unittest.TestCase):
             self.assertEqual(f"{done.result.after.distortion:.3f}", distortion)
             self.assertEqual(f"+{100 * done.result.boundary_growth:.0f} %", seams)
             self.assertIn(str(done.result.cuts.cuts), cuts)
-            self.assertIn("undo", self.why_not())
+            self.assertIn("Undo", self.why_not())
             bpy.ops.ed.undo()
             self.settings = bpy.context.scene.atlas_refine
             self.assertEqual(self.why_not(), "")
