@@ -180,6 +180,26 @@ TEST(Needed, TheTradeOffHasEveryChoice) {
   EXPECT_NEAR(second.boundary_growth, points[1].boundary_growth, 1e-9);
 }
 
+TEST(Needed, APointOfTheTradeOffIsWantedWhateverItsDistortion) {
+  RefineOptions options = needed_within(1.00001);
+  options.trade_off = true;
+  options.point = 0;
+  const RefineResult result = refine(flat_s(), options);
+  EXPECT_EQ(result.boundary_growth, 0);
+  EXPECT_EQ(result.cuts->chosen, 0);
+}
+
+// E_d has one scale for all charts: what kept densities cost of it no cut can save.
+TEST(Needed, ForecastsAreOfTheDistortionOnTheSurface) {
+  Atlas dense = flat_star();
+  for (Vec2& uv : dense.corner_uvs) uv = 2 * uv;
+  RefineOptions options = needed();
+  options.density = Density::Keep;
+  options.seam_cost = 0.02;
+  const RefineResult result = refine(shapes::combine({flat_s(), dense}), options);
+  for (const TradeOff& outcome : result.cuts->trade_off) EXPECT_GT(outcome.distortion, 1.1);
+}
+
 TEST(Needed, OptionsOutOfRangeAreRefused) {
   const Atlas atlas = flat_s();
   for (const auto& set : std::vector<void (*)(RefineOptions&)>{

@@ -118,17 +118,14 @@ struct Outcomes {
 
   CutReport report(const Trial& chosen) const {
     CutReport out{static_cast<int>(chosen.cuts.size()), tried, trade_off()};
-    for (std::size_t k = 0; k < out.trade_off.size(); ++k) {
-      const TradeOff& outcome = out.trade_off[k];
-      if (outcome.boundary_growth == chosen.growth && outcome.distortion == chosen.distortion) out.chosen = static_cast<int>(k);
-    }
+    for (const TradeOff& outcome : out.trade_off) out.chosen += outcome.boundary_growth <= chosen.growth;
     return out;
   }
 };
 
 class Search {
  public:
-  Search(const CutTrials& trials, const RefineOptions& options, const ProgressRange& range)
+  Search(CutTrials& trials, const RefineOptions& options, const ProgressRange& range)
       : trials_(trials), options_(options), wish_{options}, budget_(budget_of(options.effort)), rest_(range) {}
 
   SqueezedTrial run() {
@@ -226,7 +223,7 @@ class Search {
     }
   }
 
-  const CutTrials& trials_;
+  CutTrials& trials_;
   const RefineOptions& options_;
   Wish wish_;
   Budget budget_;
@@ -242,7 +239,7 @@ Solution cut_as_needed(const Refinement& run, const ProgressRange& range) {
   RefineOptions unlimited = run.options;
   unlimited.max_distortion.reset();
   const Refinement free{run.input, unlimited, run.monitor, run.journal, run.threads, run.asked};
-  const CutTrials trials(free, range.part(0, 0.1));
+  CutTrials trials(free, range.part(0, 0.1));
   SqueezedTrial best = Search(trials, run.options, range.part(0.1, 1)).run();
   run.journal.fallbacks.insert(run.journal.fallbacks.end(), best.fallbacks.begin(), best.fallbacks.end());
   run.journal.warnings.insert(run.journal.warnings.end(), best.warnings.begin(), best.warnings.end());

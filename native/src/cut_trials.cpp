@@ -1,6 +1,7 @@
 // Cuts made one after the other, pieces placed anew, squeezed.
 #include "cut_trials.h"
 
+#include <cmath>
 #include <limits>
 
 #include "geometry/boundary.h"
@@ -9,6 +10,8 @@
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "place_and_squeeze.h"
+#include "reduce/goal.h"
+#include "reduce/reduce.h"
 #include "repair/part_touching.h"
 #include "report/locked.h"
 #include "seams/lay_apart.h"
@@ -44,9 +47,13 @@ double CutTrials::distortion_of(const Solution& solution) const {
   return dirichlet_sums(charts).best_energy();
 }
 
-SqueezedTrial CutTrials::without_cuts(const ProgressRange& range) const {
+SqueezedTrial CutTrials::without_cuts(const ProgressRange& range) {
   SqueezedTrial out{.trial = {}, .solution = place_and_squeeze(run_, whole_.atlas, whole_.keeps_place, range)};
   out.trial.distortion = distortion_of(out.solution);
+  const std::vector<Chart> charts = meshes_of(out.solution.atlas);
+  const Objective objective = goal_of(run_.input.set.charts, out.solution.atlas, run_.options);
+  const double energy = reduce_distortion({.charts = charts, .objective = objective, .max_iterations = 0}).energy;
+  if (std::isfinite(out.trial.distortion)) offset_ = out.trial.distortion - energy;
   return out;
 }
 
@@ -147,7 +154,7 @@ std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, cons
   const auto moved = !left || charts->size() <= kFewCharts ? forecast_distortion(run, *atlas) : std::nullopt;
   if (!left && !moved) return std::nullopt;
   const double infinite = std::numeric_limits<double>::infinity();
-  out.distortion = std::min(left.value_or(infinite), moved.value_or(infinite));
+  out.distortion = offset_ + std::min(left.value_or(infinite), moved.value_or(infinite));
   if (left && *left <= moved.value_or(infinite)) out.in_place_of = present;
   return out;
 }

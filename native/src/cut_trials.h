@@ -39,7 +39,8 @@ class CutTrials {
 
   const std::vector<int>& mended() const { return whole_.mended; }
 
-  SqueezedTrial without_cuts(const ProgressRange& range) const;
+  /// The first to be asked for.
+  SqueezedTrial without_cuts(const ProgressRange& range);
   /// Of what was forecast; nothing where the bound does not hold.
   std::optional<SqueezedTrial> squeezed(const Trial& trial, const ProgressRange& range) const;
 
@@ -64,7 +65,8 @@ class CutTrials {
   Freedoms freedom_;
   WholeCharts whole_;
   std::vector<SidePrices> prices_;
-  double boundary_;  // of all charts, on the surface
+  double boundary_;    // of all charts, on the surface
+  double offset_ = 0;  // E_d less the objective, which other densities, shapes or weights make differ
 };
 
 }  // namespace atlas_refine

@@ -168,8 +168,10 @@ RefineResult refine_usable(const Atlas& atlas, const RefineOptions& options, Mon
   return result;
 }
 
-/// Where some chart is locked, or where that is asked, the box is the texture, which is square unless said otherwise.
-RefineOptions with_texture(RefineOptions options) {
+/// Where some chart is locked, or where that is asked, the box is the texture, which is square unless said otherwise. A point of
+/// the trade-off is wanted whatever its distortion.
+RefineOptions settled(RefineOptions options) {
+  if (options.point) options.max_distortion.reset();
   const bool locked = std::any_of(options.locked.begin(), options.locked.end(), [](char flag) { return flag != 0; });
   if ((locked || options.in_texture) && options.box_aspect == 0) options.box_aspect = 1;
   return options;
@@ -181,7 +183,7 @@ const char* version() { return ATLAS_REFINE_VERSION; }
 
 RefineResult refine(const Atlas& atlas, const RefineOptions& asked, const ProgressFn& progress, DebugSink* debug) {
   check_options(atlas, asked);
-  const RefineOptions options = with_texture(asked);
+  const RefineOptions options = settled(asked);
   RefineResult result;
   run_monitored(progress, [&](Monitor& monitor) {
     Journal journal(monitor, debug, options.box_aspect);
