@@ -39,7 +39,10 @@ void choose_faces(FuzzedDataProvider& data, const Atlas& atlas, RefineOptions& o
 }
 
 void choose_cuts(FuzzedDataProvider& data, RefineOptions& options) {
-  options.seams = data.ConsumeBool() ? Seams::Rectangles : Seams::None;
+  options.seams = data.PickValueInArray({Seams::None, Seams::Needed, Seams::Rectangles});
+  options.effort = Effort::Fast;
+  options.seam_cost = data.PickValueInArray({0.0, 0.1});
+  if (data.ConsumeBool()) options.max_boundary_growth = data.PickValueInArray({0.0, 0.2});
   options.cut = data.ConsumeBool() ? Cut::Edges : Cut::Split;
   options.open_closed = data.ConsumeBool();
   options.triangulate = data.ConsumeBool();
@@ -92,6 +95,9 @@ std::string words(const RefineOptions& options) {
   flag(options.rotate == Rotate::None, "--rotate none");
   flag(options.align_axes, "--align-axes");
   flag(options.seams == Seams::Rectangles, "--seams rectangles");
+  flag(options.seams == Seams::Needed, "--seams needed --effort fast");
+  out << " --seam-cost " << options.seam_cost;
+  if (options.max_boundary_growth) out << " --max-boundary-growth " << *options.max_boundary_growth;
   flag(options.cut == Cut::Edges, "--cut edges");
   flag(options.open_closed, "--open-closed");
   flag(options.triangulate, "--triangulate");
