@@ -141,7 +141,7 @@ class Search {
   }
 
  private:
-  /// Every squeeze has a part of what is left of the progress: most searches end soon.
+  /// Every step has a part of what is left of the progress: most searches end soon.
   ProgressRange step() {
     const ProgressRange out = rest_.part(0, 0.3);
     rest_ = rest_.part(0.3, 1);
@@ -211,7 +211,7 @@ class Search {
   void expand(const SqueezedTrial& present) {
     ++expansions_;
     const double most = options_.max_boundary_growth.value_or(std::numeric_limits<double>::infinity());
-    for (Trial& trial : trials_.forecasts(present, trials_.places(present, budget_.forecasts), most)) {
+    for (Trial& trial : trials_.forecasts(present, trials_.places(present, budget_.forecasts), most, step())) {
       ++found_.tried;
       const double gain = loss(present.trial) - loss(trial), more = trial.growth - present.trial.growth;
       if ((more > 0 && gain < kSettled) || found_.knows(trial)) continue;

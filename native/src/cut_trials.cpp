@@ -22,7 +22,17 @@ namespace atlas_refine {
 namespace {
 
 constexpr std::size_t kFewCharts = 8;  // of these all pieces are placed anew as well
-constexpr double kLeastPart = 0.02;    // of its chart's surface: no cut leaves less
+
+/// Draws borders of one piece that touch along a cut a little apart; false where that does not make it valid.
+bool part_along_cuts(const std::vector<ChartCuts>& charts, CutAtlas& atlas) {
+  for (Piece& piece : atlas.pieces) {
+    if (charts[piece.chart].paths().empty() || certify_charts({piece.mesh}).valid()) continue;
+    auto parted = part_touching(piece.mesh);
+    if (!parted) return false;
+    piece.mesh = std::move(*parted);
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -86,27 +96,18 @@ std::optional<CutAtlas> CutTrials::atlas_of(const std::vector<ChartCuts>& charts
   }
   const std::vector<Chart>& sources = run_.input.set.charts;
   CutAtlas out = cut_along(divided_atlas(meshes, sources, run_.input.set.points), sources, paths);
-  for (Piece& piece : out.pieces) {
-    if (!bends(freedom_, piece.chart) || charts[piece.chart].paths().empty() || certify_charts({piece.mesh}).valid()) continue;
-    auto parted = part_touching(piece.mesh);
-    if (!parted) return std::nullopt;
-    piece.mesh = std::move(*parted);
-  }
+  if (!part_along_cuts(charts, out)) return std::nullopt;
   return out;
 }
 
 /// The pieces in the layout of the present state; nothing where they would cross or touch there.
-std::optional<CutAtlas> CutTrials::in_place(const CutAtlas& atlas, const SqueezedTrial& present) const {
+std::optional<CutAtlas> CutTrials::in_place(const std::vector<ChartCuts>& charts, const CutAtlas& atlas,
+                                            const SqueezedTrial& present) const {
   const Solution& solution = present.solution;
   if (solution.end.box.isZero()) return std::nullopt;  // only moved
   const Vec2 box = solution.atlas.frame.isZero() ? solution.end.box : solution.atlas.frame;
   CutAtlas out = lay_apart(atlas, solution.atlas, run_.input.set.charts, solution.gap.length(box));
-  for (Piece& piece : out.pieces) {
-    if (!bends(freedom_, piece.chart) || certify_charts({piece.mesh}).valid()) continue;
-    auto parted = part_touching(piece.mesh);
-    if (!parted) return std::nullopt;
-    piece.mesh = std::move(*parted);
-  }
+  if (!part_along_cuts(charts, out)) return std::nullopt;
   const Freedoms freedom = freedom_of_pieces(freedom_, out);
   const std::vector<Chart> pieces = meshes_of(out);
   if (!certify_charts(pieces, points_in_space(out, run_.input.set.points), freedom).valid()) return std::nullopt;
@@ -123,7 +124,7 @@ std::optional<SqueezedTrial> CutTrials::squeezed(const Trial& trial, const Progr
   std::optional<Solution> solution;
   if (trial.in_place_of) {
     journal.begin_stage("squeeze", range);
-    solution = squeeze_in_place(run_, *in_place(*atlas, *trial.in_place_of), trial.in_place_of->solution);
+    solution = squeeze_in_place(run_, *in_place(*charts, *atlas, *trial.in_place_of), trial.in_place_of->solution);
   } else {
     solution = place_and_squeeze_cut(run_, *atlas, range);
   }
@@ -149,9 +150,9 @@ std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, cons
   if (!atlas) return std::nullopt;
   const Refinement run{run_.input, run_.options, run_.monitor, run_.journal, 1, run_.asked};  // they run side by side
   // A chart alone that is cut is best placed anew; of many charts the layout is worth more than what another would gain.
-  const auto laid = present && charts->size() > 1 ? in_place(*atlas, *present) : std::nullopt;
+  const auto laid = present && charts->size() > 1 ? in_place(*charts, *atlas, *present) : std::nullopt;
   const auto left = laid ? forecast_in_place(run, *laid, present->solution) : std::nullopt;
-  const auto moved = !left || charts->size() <= kFewCharts ? forecast_distortion(run, *atlas) : std::nullopt;
+  const auto moved = !left || charts->size() <= kFewCharts ? forecast_energy(run, *atlas) : std::nullopt;
   if (!left && !moved) return std::nullopt;
   const double infinite = std::numeric_limits<double>::infinity();
   out.distortion = offset_ + std::min(left.value_or(infinite), moved.value_or(infinite));
@@ -159,8 +160,9 @@ std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, cons
   return out;
 }
 
-std::vector<Trial> CutTrials::forecasts(const SqueezedTrial& present, const std::vector<CutPlace>& places,
-                                        double most_growth) const {
+std::vector<Trial> CutTrials::forecasts(const SqueezedTrial& present, const std::vector<CutPlace>& places, double most_growth,
+                                        const ProgressRange& range) const {
+  run_.journal.begin_stage("layout", range);
   const std::vector<CutPlace>& cuts = present.trial.cuts;
   std::vector<std::vector<CutPlace>> sets;
   for (const CutPlace& place : places) {

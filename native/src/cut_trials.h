@@ -46,7 +46,8 @@ class CutTrials {
 
   /// What one more cut than `present` has comes to, and what one cut less does: one trial for each that can be made, leaves no
   /// slivers, adds at most `most_growth` and holds the bound. `present` must outlive them.
-  std::vector<Trial> forecasts(const SqueezedTrial& present, const std::vector<CutPlace>& places, double most_growth) const;
+  std::vector<Trial> forecasts(const SqueezedTrial& present, const std::vector<CutPlace>& places, double most_growth,
+                               const ProgressRange& range) const;
 
   /// Where one more cut may pay; at most `most`.
   std::vector<CutPlace> places(const SqueezedTrial& present, int most) const;
@@ -55,7 +56,8 @@ class CutTrials {
   std::optional<std::vector<ChartCuts>> made(const std::vector<CutPlace>& cuts) const;
   std::optional<CutAtlas> atlas_of(const std::vector<ChartCuts>& charts) const;
   std::optional<Trial> forecast(const std::vector<CutPlace>& cuts, const SqueezedTrial* present, double most_growth) const;
-  std::optional<CutAtlas> in_place(const CutAtlas& atlas, const SqueezedTrial& present) const;
+  std::optional<CutAtlas> in_place(const std::vector<ChartCuts>& charts, const CutAtlas& atlas,
+                                   const SqueezedTrial& present) const;
   double growth_of(const std::vector<ChartCuts>& charts) const;
   bool leaves_slivers(const std::vector<ChartCuts>& charts) const;
   std::vector<std::vector<double>> losses(const Solution& solution) const;

@@ -27,11 +27,7 @@ bool within_limit(const RefineOptions& options, double distortion) {
 /// The UVs are as large as is asked, if anything is.
 bool has_density(const InputAtlas& input, const RefineOptions& options) {
   constexpr double kRounding = 1e-5;  // of UVs in single precision
-  if (options.uv_density == 0) return true;
-  double surface = 0;
-  for (const Chart& chart : input.set.charts) surface += chart.surface.area();
-  const double density = std::sqrt(uv_area(input.set.charts) / surface);
-  return std::abs(density / options.uv_density - 1) < kRounding;
+  return options.uv_density == 0 || std::abs(texel_density(input.set.charts) / options.uv_density - 1) < kRounding;
 }
 
 /// Valid and, where the box is the texture, within its border: only then PE tells how good it is.

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "atlas_refine/error.h"
-#include "coarsen/coarse_atlas.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "pack/place_charts.h"
@@ -112,14 +111,19 @@ void warn_of_gap(const Refinement& run, const Gap& gap, const std::string& why) 
                                  number_text("%g", gap.value) + " of the box diagonal: " + why);
 }
 
+SqueezeOptions squeeze_options(const Refinement& run, const Freedoms& freedom, const std::vector<Gap>& gaps,
+                               double max_distortion = 0) {
+  return {.pe_bound = run.options.pe_bound,
+          .box_aspect = run.options.box_aspect,
+          .gaps = gaps,
+          .max_distortion = max_distortion,
+          .threads = run.threads,
+          .freedom = freedom};
+}
+
 Squeezed squeeze_from(const Refinement& run, const CutAtlas& atlas, const std::vector<PlacedCharts>& starts,
                       const Freedoms& freedom, const std::vector<Gap>& gaps, double max_distortion) {
-  const SqueezeOptions options{.pe_bound = run.options.pe_bound,
-                               .box_aspect = run.options.box_aspect,
-                               .gaps = gaps,
-                               .max_distortion = max_distortion,
-                               .threads = run.threads,
-                               .freedom = freedom};
+  const SqueezeOptions options = squeeze_options(run, freedom, gaps, max_distortion);
   Squeezed squeezed = squeeze(starts, goal_of(run.input.set.charts, atlas, run.options), options, run.monitor);
   run.journal.iterations += squeezed.iterations;
   return squeezed;
@@ -168,6 +172,23 @@ PlacedCharts place_with(const Refinement& run, const std::vector<Chart>& charts,
     return closer;
   }
   return placed;
+}
+
+/// What the squeeze needs to go on where `laid` lies, which was cut out of what `from` ended with.
+struct InPlace {
+  PlacedCharts start;
+  Objective objective;
+  WarmStart warm;
+  SqueezeOptions options;
+};
+
+InPlace in_place(const Refinement& run, const CutAtlas& laid, const Solution& from) {
+  InPlace out{.start = {.charts = meshes_of(laid), .frame = laid.frame},
+              .objective = goal_of(run.input.set.charts, laid, run.options),
+              .warm = from.end,
+              .options = squeeze_options(run, freedom_of_pieces(freedom_of(run.input.set, run.options), laid), {from.gap})};
+  out.warm.near_borders.clear();  // of other vertices
+  return out;
 }
 
 /// Borders that touch at a vertex (a pinch) may stay so where charts are but moved; no barrier can start from contact.
@@ -250,36 +271,14 @@ std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas&
   if (keeps_place) start = own_layout(run, pieces, freedom, gaps.front());
   if (!start) start = place(run, pieces, freedom, gaps.front(), kRoughly * run.options.pe_bound);
   const ReduceResult result = squeeze_from(run, atlas, {*start}, freedom, gaps, most).outcome;
-  if (!result.reached || !result.within_limit) return std::nullopt;
+  if (!result.holds()) return std::nullopt;
   return result.distortion;
 }
 
-namespace {
-
-ReduceProblem problem_in_place(const Refinement& run, const std::vector<Chart>& pieces, const Solution& from,
-                               const CutAtlas& laid) {
-  ReduceProblem problem{.charts = pieces,
-                        .gap = from.gap,
-                        .box_aspect = run.options.box_aspect,
-                        .pe_target = run.options.pe_bound,
-                        .threads = run.threads,
-                        .freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), laid),
-                        .frame = laid.frame,
-                        .warm = from.end};
-  problem.warm->near_borders.clear();  // of other vertices
-  return problem;
-}
-
-}  // namespace
-
 std::optional<Solution> squeeze_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from) {
-  const std::vector<Chart> pieces = meshes_of(laid);
-  ReduceProblem problem = problem_in_place(run, pieces, from, laid);
-  problem.objective = goal_of(run.input.set.charts, laid, run.options);
-  const ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
-    run.monitor.report(0.5, progress.pe);
-    return !run.monitor.finishing();
-  });
+  const auto [start, objective, warm, options] = in_place(run, laid, from);
+  const ReduceResult result = squeeze_on(start, objective, from.gap, warm, options, run.monitor);
+  run.journal.iterations += result.iterations;
   if (!result.holds()) return std::nullopt;
   Solution out{.intervention = Intervention::Cut,
                .atlas = with_uvs(laid, result.uvs),
@@ -292,37 +291,19 @@ std::optional<Solution> squeeze_in_place(const Refinement& run, const CutAtlas& 
 }
 
 std::optional<double> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from) {
-  const std::vector<Chart> pieces = meshes_of(laid);
-  const Objective objective = goal_of(run.input.set.charts, laid, run.options);
-  ReduceProblem problem = problem_in_place(run, pieces, from, laid);
-  const auto coarse = coarsen(pieces, objective, problem.freedom);
-  PlacedCharts start{.charts = pieces, .frame = laid.frame};
-  if (coarse) start = restricted(*coarse, start);
-  ReduceProblem rough{.charts = start.charts,
-                      .objective = coarse ? coarse->objective : objective,
-                      .gap = problem.gap,
-                      .box_aspect = problem.box_aspect,
-                      .pe_target = problem.pe_target,
-                      .threads = 1,
-                      .freedom = problem.freedom,
-                      .frame = start.frame,
-                      .warm = problem.warm};
-  const ReduceResult result = reduce_distortion(rough, [&](const ReduceProgress&) { return !run.monitor.finishing(); });
+  const auto [start, objective, warm, options] = in_place(run, laid, from);
+  const ReduceResult result = forecast_squeeze_on(start, objective, from.gap, warm, options, run.monitor);
   if (!result.holds()) return std::nullopt;
   return result.energy;
 }
 
-std::optional<double> forecast_distortion(const Refinement& run, const CutAtlas& atlas) {
+std::optional<double> forecast_energy(const Refinement& run, const CutAtlas& atlas) {
   const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), atlas);
   const std::vector<Chart> pieces = meshes_of(atlas);
-  const SqueezeOptions options{.pe_bound = run.options.pe_bound,
-                               .box_aspect = run.options.box_aspect,
-                               .gaps = gaps_of(run, pieces, freedom, kMostTakenBent),
-                               .threads = run.threads,
-                               .freedom = freedom};
-  const PlacedCharts start = place(run, pieces, freedom, options.gaps.front(), kRoughly * run.options.pe_bound);
+  const std::vector<Gap> gaps = gaps_of(run, pieces, freedom, kMostTakenBent);
+  const PlacedCharts start = place(run, pieces, freedom, gaps.front(), kRoughly * run.options.pe_bound);
   const Objective objective = goal_of(run.input.set.charts, atlas, run.options);
-  const ReduceResult result = forecast_squeeze({start}, objective, options, run.monitor).outcome;
+  const ReduceResult result = forecast_squeeze({start}, objective, squeeze_options(run, freedom, gaps), run.monitor).outcome;
   if (!result.holds()) return std::nullopt;
   return result.energy;
 }

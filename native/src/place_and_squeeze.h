@@ -26,11 +26,10 @@ std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas&
 /// Pieces that lie where they were in `from`, which was squeezed, and a little apart where they were cut: squeezed on from there.
 /// Nothing where the bound is not reached.
 std::optional<Solution> squeeze_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from);
-/// The objective that this comes to, sooner and rougher.
-std::optional<double> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from);
 
-/// As squeezed_distortion() without a limit and on coarse charts, sooner and rougher; nothing where the bound is not reached.
-/// Several may run at once.
-std::optional<double> forecast_distortion(const Refinement& run, const CutAtlas& atlas);
+/// The objective at the bound, sooner and rougher, of pieces placed anew, and of pieces squeezed in place. Nothing where the
+/// bound is not reached. Several may run at once.
+std::optional<double> forecast_energy(const Refinement& run, const CutAtlas& atlas);
+std::optional<double> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from);
 
 }  // namespace atlas_refine

@@ -77,7 +77,8 @@ struct RefineOptions {
   /// the next one is kept if it spares a quarter of that (charts that are cut: with which the rectangles pack to the bound). A
   /// warning says why larger ones were given up. An atlas that is left as it is keeps its own.
   std::optional<Gap> gap;
-  std::optional<double> max_distortion;  ///< largest E_d allowed, >= 1; above it the call throws, with best_effort too
+  /// Largest E_d allowed, >= 1; above it the call throws, with best_effort too, but with Seams::Needed.
+  std::optional<double> max_distortion;
   /// With Seams::Needed: how much boundary the cuts may add, as a fraction of that of all charts, on the surface; both sides of a
   /// cut count.
   std::optional<double> max_boundary_growth;
@@ -91,7 +92,9 @@ struct RefineOptions {
   /// Go on to the least of the objective under the bound where less would already hold it. Rectangles do so anyway, unless
   /// until_input.
   bool relax = false;
-  bool best_effort = false;  ///< where the bound is not reached return the best valid atlas within max_distortion, do not throw
+  /// Where the bound is not reached return the best valid atlas within max_distortion, do not throw; with Seams::Needed also
+  /// where max_distortion is missed, the least distorted one.
+  bool best_effort = false;
   Density density = Density::Equal;
   /// Of a free box only: the size of the result, as sqrt(UV area / surface area), UV units per model unit. It may reach beyond
   /// [0, 1]^2 then. 0 = the longer side of the box is 1.

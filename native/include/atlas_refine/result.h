@@ -147,8 +147,9 @@ struct RefineResult {
   /// Edges of the input, as pairs of its vertices, that were cut where no face was divided (Cut::Edges); each once.
   std::vector<std::array<int, 2>> new_seams;
   Intervention intervention = Intervention::Unchanged;
-  /// False only with best_effort or Ended::Stopped, where PE is below the bound, and where some group of several keeps its UVs
-  /// because no result of it holds. max_distortion holds in all that was refined.
+  /// False only with best_effort or Ended::Stopped, where PE is below the bound or, with Seams::Needed, max_distortion missed,
+  /// and where some group of several keeps its UVs because no result of it holds. Else max_distortion holds in all that was
+  /// refined.
   bool bound_met = false;
   /// Of the charts that take part, stacked ones once. With several groups PE, box and gaps are the least of theirs, distortions
   /// their means by area.
@@ -161,13 +162,13 @@ struct RefineResult {
   Triangulations triangulations;  ///< of the result; what was positive under a division in the input still is, else a warning
   Gap gap;                        ///< the gap that is guaranteed in the result; the least of several groups
   double price = 0;               ///< lambda: marginal objective for one unit of log PE at the bound; 0 where it does not bind
-  int iterations = 0;             ///< Newton iterations, all stages
+  int iterations = 0;             ///< Newton iterations, all stages but for forecasts of cuts
   Ended ended = Ended::NotRun;
   std::vector<ChartReport> charts;  ///< one per chart of the input
   std::vector<int> face_charts;     ///< one per face of the input: index into `charts`
   std::vector<PieceReport> pieces;  ///< one per chart of the output; empty unless Intervention::Cut
   std::optional<RectangleReport> rectangles;
-  std::optional<CutReport> cuts;
+  std::optional<CutReport> cuts;       ///< with Seams::Needed; sums of several groups
   std::vector<GroupReport> groups;     ///< empty without RefineOptions::groups
   std::vector<Repair> repairs;         ///< what was mended and where
   std::vector<std::string> fallbacks;  ///< one line each: what was tried first, and what was done instead

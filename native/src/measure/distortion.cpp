@@ -111,6 +111,14 @@ double uv_area(const std::vector<Chart>& charts) {
   return area;
 }
 
+double texel_density(const Chart& chart) { return std::sqrt(uv_area(chart) / chart.surface.area()); }
+
+double texel_density(const std::vector<Chart>& charts) {
+  double surface = 0;
+  for (const Chart& chart : charts) surface += chart.surface.area();
+  return std::sqrt(uv_area(charts) / surface);
+}
+
 double uv_perimeter(const std::vector<Chart>& charts) {
   double perimeter = 0;
   for (const Chart& chart : charts) {

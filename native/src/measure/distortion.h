@@ -34,6 +34,9 @@ std::vector<double> triangle_stretch(const Chart& chart, double scale);
 /// Sum of UV triangle areas.
 double uv_area(const Chart& chart);
 double uv_area(const std::vector<Chart>& charts);
+/// sqrt(UV area / surface area), of all charts together.
+double texel_density(const Chart& chart);
+double texel_density(const std::vector<Chart>& charts);
 /// Sum of the lengths of all boundary edges.
 double uv_perimeter(const std::vector<Chart>& charts);
 

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "geometry/box_tree.h"
+#include "pack/budget.h"
 #include "pack/compaction.h"
-#include "pack/effort.h"
 #include "pack/separation.h"
 #include "support/parallel.h"
 
@@ -23,7 +23,7 @@ constexpr int kTooManyToCompact = 1000;
 constexpr int kFinalists = 4;
 constexpr int kBatch = 32;  // greedy starts between two looks at the target
 /// Work of all greedy starts in words looked at: more than atlases of any number of charts need, half a second of tall strips.
-constexpr std::int64_t kGreedyWork = effort(200'000'000);
+constexpr std::int64_t kGreedyWork = budget(200'000'000);
 /// Cells along the side: more charts need a finer grid, or most of it is what rounding adds to each; bounds its memory.
 constexpr double kMostCells = 8192;
 /// Cells are so large that no chart is longer than this many sides of the grid: a needle's length is no measure of the area.

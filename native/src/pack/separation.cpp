@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pack/effort.h"
+#include "pack/budget.h"
 
 namespace atlas_refine {
 namespace {
 
 /// Work of one shrink_box, in row words compared: about 0.15 s.
-constexpr std::int64_t kBudget = effort(20'000'000);
+constexpr std::int64_t kBudget = budget(20'000'000);
 /// Passes over the overlapping charts without progress before a separation
 /// gives up.
 constexpr int kPatience = 60;

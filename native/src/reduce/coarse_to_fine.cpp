@@ -35,16 +35,10 @@ WarmStart warm_start(const CoarseAtlas& coarse, const std::vector<Chart>& charts
   return end;
 }
 
-std::optional<ReduceResult> polish(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
-                                   const SqueezeOptions& options, Monitor& monitor) {
-  ReduceProblem problem = problem_at(start, objective, gap, options);
-  problem.warm = warm;
-  ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
-    monitor.report(0.97, progress.pe);
-    return !monitor.finishing();
-  });
-  if (!result.holds() && result.status != ReduceStatus::Stopped) return std::nullopt;
-  return result;
+std::vector<PlacedCharts> restricted(const CoarseAtlas& coarse, const std::vector<PlacedCharts>& starts) {
+  std::vector<PlacedCharts> out;
+  for (const PlacedCharts& start : starts) out.push_back(restricted(coarse, start));
+  return out;
 }
 
 /// The gap within charts as a fraction of their box' diagonal, at most `most`.
@@ -57,26 +51,24 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   const std::vector<Chart>& charts = starts.front().charts;
   const auto coarse = coarsen(charts, objective, options.freedom);
   if (!coarse) return std::nullopt;
-  std::vector<PlacedCharts> coarse_starts;
-  for (const PlacedCharts& start : starts) coarse_starts.push_back(restricted(*coarse, start));
   SqueezeOptions patiently = options;
   patiently.least_change = kLeastChange;
   patiently.negligible = kNegligible;
-  Squeezed out = squeeze_directly(coarse_starts, coarse->objective, patiently, monitor);
+  Squeezed out = squeeze_directly(restricted(*coarse, starts), coarse->objective, patiently, monitor);
   if (!out.outcome.holds() && !monitor.finishing()) return std::nullopt;
   const auto start = carried_over(*coarse, charts, objective, out.outcome);
   if (!start) return std::nullopt;
-  auto result = polish(*start, objective, out.gap, warm_start(*coarse, charts, out.outcome.end), options, monitor);
-  if (!result) return std::nullopt;
+  ReduceResult result = squeeze_on(*start, objective, out.gap, warm_start(*coarse, charts, out.outcome.end), options, monitor);
+  const bool stopped = result.status == ReduceStatus::Stopped;  // with no time for a direct squeeze
+  if (!result.holds() && !stopped) return std::nullopt;
   // Borders that turned to face each other on the way may have come nearer than those of a direct squeeze do.
   constexpr double kNearer = 0.8;
-  const PlacedCharts end = with_uvs_of(*start, *result);
+  const PlacedCharts end = with_uvs_of(*start, result);
   const Box box = uv_box(end.charts);
   const double gap = out.gap.length(end.has_frame() ? end.frame : box.size()) / box.diagonal();
-  const bool stopped = result->status == ReduceStatus::Stopped;  // with no time for a direct one
   if (!stopped && gap_within(end.charts, kNearer * gap) < kNearer * gap_within(charts, gap)) return std::nullopt;
-  out.iterations += result->iterations;
-  out.outcome = std::move(*result);
+  out.iterations += result.iterations;
+  out.outcome = std::move(result);
   return out;
 }
 
@@ -91,13 +83,28 @@ Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objec
   return squeeze_directly(starts, objective, options, monitor);
 }
 
+ReduceResult squeeze_on(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
+                        const SqueezeOptions& options, Monitor& monitor) {
+  ReduceProblem problem = problem_at(start, objective, gap, options);
+  problem.warm = warm;
+  return reduce_distortion(problem, [&](const ReduceProgress& progress) {
+    monitor.report(0.97, progress.pe);
+    return !monitor.finishing();
+  });
+}
+
 Squeezed forecast_squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                           Monitor& monitor) {
   const auto coarse = coarsen(starts.front().charts, objective, options.freedom);
   if (!coarse) return squeeze_directly(starts, objective, options, monitor);
-  std::vector<PlacedCharts> coarse_starts;
-  for (const PlacedCharts& start : starts) coarse_starts.push_back(restricted(*coarse, start));
-  return squeeze_directly(coarse_starts, coarse->objective, options, monitor);
+  return squeeze_directly(restricted(*coarse, starts), coarse->objective, options, monitor);
+}
+
+ReduceResult forecast_squeeze_on(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
+                                 const SqueezeOptions& options, Monitor& monitor) {
+  const auto coarse = coarsen(start.charts, objective, options.freedom);
+  if (!coarse) return squeeze_on(start, objective, gap, warm, options, monitor);
+  return squeeze_on(restricted(*coarse, start), coarse->objective, gap, warm, options, monitor);
 }
 
 }  // namespace atlas_refine

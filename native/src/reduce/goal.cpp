@@ -9,9 +9,9 @@
 namespace atlas_refine {
 namespace {
 
-/// sqrt(UV area / surface area); 1 for a chart without UV area.
-double texel_density(const Chart& chart) {
-  const double density = std::sqrt(uv_area(chart) / chart.surface.area());
+/// 1 for a chart without UV area.
+double usable_density(const Chart& chart) {
+  const double density = texel_density(chart);
   return density > 0 && std::isfinite(density) ? density : 1;
 }
 
@@ -53,7 +53,7 @@ std::vector<double> wanted_density(const std::vector<Chart>& input, Density dens
   std::vector<double> out;
   double wanted = 0, surface = 0;
   for (const Chart& chart : input) {
-    out.push_back(texel_density(chart));
+    out.push_back(usable_density(chart));
     wanted += out.back() * out.back() * chart.surface.area();
     surface += chart.surface.area();
   }
@@ -65,7 +65,7 @@ bool set_density(std::vector<Chart>& charts, const std::vector<double>& wanted, 
   double least = 0, most = 0;
   for (std::size_t c = 0; c < charts.size(); ++c) {
     if (is_fixed(freedom, c)) continue;
-    const double own = density == Density::Equal ? 1 / dirichlet_sums(charts[c]).best_scale() : texel_density(charts[c]);
+    const double own = density == Density::Equal ? 1 / dirichlet_sums(charts[c]).best_scale() : usable_density(charts[c]);
     const double scale = wanted[c] / own;
     for (Vec2& uv : charts[c].uvs) uv *= scale;
     least = least == 0 ? scale : std::min(least, scale);
@@ -92,7 +92,7 @@ Objective goal_of(const std::vector<Chart>& input, const CutAtlas& atlas, const 
   if (options.reference == Reference::Input) {
     for (const Piece& piece : atlas.pieces) {
       request.reference_uvs.push_back(input_uvs(piece, input));
-      request.reference_scale.push_back(1 / texel_density(input[piece.chart]));
+      request.reference_scale.push_back(1 / usable_density(input[piece.chart]));
     }
   }
   return make_objective(meshes_of(atlas), request);

@@ -60,8 +60,14 @@ Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objecti
 Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor);
 
-/// What the squeeze comes to, roughly: the outcome on the coarse charts, where there are such. Its UVs are theirs.
+/// Goes on from a start whose way to the bound lies behind it.
+ReduceResult squeeze_on(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
+                        const SqueezeOptions& options, Monitor& monitor);
+
+/// What these two come to, roughly: the outcome on the coarse charts, where there are such. Its UVs are theirs.
 Squeezed forecast_squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                           Monitor& monitor);
+ReduceResult forecast_squeeze_on(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
+                                 const SqueezeOptions& options, Monitor& monitor);
 
 }  // namespace atlas_refine

@@ -46,7 +46,7 @@ void widen(const Chart& chart, std::vector<char>& near) {
 /// The triangles and guards at free vertices, all to look as on the surface.
 Tangle tangle_at(const Chart& chart, const std::vector<char>& free) {
   Tangle out;
-  const double scale = std::sqrt(uv_area(chart) / chart.surface.area());
+  const double scale = texel_density(chart);
   const double least = kLeastWeight * uv_area(chart) / static_cast<double>(chart.triangles.size());
   for_each_element(chart, [&](const Triangle& t, const RestTriangle& rest, double share, int) {
     if (rest.area == 0 || (!free[t[0]] && !free[t[1]] && !free[t[2]])) return;

@@ -20,13 +20,6 @@
 namespace atlas_refine {
 namespace {
 
-/// sqrt(UV area / surface area) of all pieces together.
-double texel_density(const std::vector<Chart>& pieces) {
-  double surface = 0;
-  for (const Chart& piece : pieces) surface += piece.surface.area();
-  return std::sqrt(uv_area(pieces) / surface);
-}
-
 /// UVs in the unit square at `origin`, or at the density that is asked, as they will be stored, per piece.
 std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, const Vec2& frame, const Vec2& origin,
                                           const RefineOptions& options) {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
 
 #include "geometry/boundary.h"
 #include "geometry/plane.h"
+#include "seams/edge_ways.h"
 #include "support/disjoint_sets.h"
 
 namespace atlas_refine {
@@ -88,30 +88,16 @@ std::vector<int> ChartCuts::straight(const Chord& chord) {
 
 std::vector<int> ChartCuts::along_edges(const Chord& chord) const {
   const double width = kCorridor * chord.length(), reach = kReach * chord.length();
-  std::vector<double> cost(mesh_.vertex_count(), std::numeric_limits<double>::infinity());
-  std::vector<int> from(mesh_.vertex_count(), -1);
-  std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue;
-  cost[chord.ends[0]] = 0;
-  queue.emplace(0, chord.ends[0]);
-  while (!queue.empty() && queue.top().second != chord.ends[1]) {
-    const auto [d, v] = queue.top();
-    queue.pop();
-    if (d > cost[v] || (on_border_[v] && v != chord.ends[0])) continue;
-    for (const Side& s : mesh_.fan(v)) {
-      const int w = mesh_.to(s);
-      const double price = prices_.empty() ? 1 : prices_[s.triangle][s.side];
-      const double away = distance_to(chord, mesh_.uvs[w]);
-      if (mesh_.is_boundary(s) || price == kNoSeam || away > reach) continue;
-      const double through = d + price * length_on_surface(s) * (1 + away * away / (width * width));
-      if (through >= cost[w]) continue;
-      cost[w] = through;
-      from[w] = v;
-      queue.emplace(through, w);
-    }
-  }
+  const auto price = [&](const Side& s) {
+    const double own = prices_.empty() ? 1 : prices_[s.triangle][s.side], away = distance_to(chord, mesh_.uvs[mesh_.to(s)]);
+    if (mesh_.is_boundary(s) || away > reach) return kNoSeam;
+    return own * length_on_surface(s) * (1 + away * away / (width * width));
+  };
+  const auto inside = [&](int v) { return !on_border_[v]; };
+  const EdgeWays ways = edge_ways(mesh_, {chord.ends[0]}, price, inside, chord.ends[1]);
   std::vector<int> path;
-  if (from[chord.ends[1]] < 0) return path;
-  for (int v = chord.ends[1]; v >= 0; v = from[v]) path.push_back(v);
+  if (ways.from[chord.ends[1]] < 0) return path;
+  for (int v = chord.ends[1]; v >= 0; v = ways.from[v]) path.push_back(v);
   std::reverse(path.begin(), path.end());
   return path;
 }

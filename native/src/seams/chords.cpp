@@ -93,7 +93,7 @@ bool is_free(const Border& border, const Vec2& a, const Vec2& b) {
 
 struct Pair {
   Station a, b;
-  double cut_off, score;
+  double cut_off, neck_ratio;
 };
 
 class NeckSearch {
@@ -112,7 +112,7 @@ class NeckSearch {
     for (std::size_t a = 0; a < stations.size(); ++a) {
       for (std::size_t b = a + 1; b < stations.size(); ++b) consider(stations[a], stations[b], pairs);
     }
-    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.score < b.score; });
+    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.neck_ratio < b.neck_ratio; });
     std::vector<Pair> kept;
     for (const Pair& pair : pairs) {
       if (static_cast<int>(kept.size()) == most) break;
@@ -120,7 +120,10 @@ class NeckSearch {
     }
     std::vector<Chord> out;
     for (const Pair& pair : kept)
-      out.push_back({.ends = {number(pair.a), number(pair.b)}, .at = {place(pair.a), place(pair.b)}, .cut_off = pair.cut_off});
+      out.push_back({.ends = {number(pair.a), number(pair.b)},
+                     .at = {place(pair.a), place(pair.b)},
+                     .cut_off = pair.cut_off,
+                     .neck_ratio = pair.neck_ratio});
     return out;
   }
 
@@ -138,8 +141,8 @@ class NeckSearch {
       part = cut_off = std::min(part, loop.whole() - part);
       if (loop.whole() <= 0 || part < least_part_) return;
     }
-    const double score = length / std::sqrt(part);
-    if (score < kLongest) pairs.push_back({a, b, cut_off, score});
+    const double neck_ratio = length / std::sqrt(part);
+    if (neck_ratio < kLongest) pairs.push_back({a, b, cut_off, neck_ratio});
   }
 
   bool is_inside(const Pair& pair) const {

@@ -18,7 +18,8 @@ struct Border {
 struct Chord {
   std::array<int, 2> ends;
   std::array<Vec2, 2> at;
-  double cut_off = 0;  ///< area of the smaller of the two parts that it leaves; 0 where it joins two loops
+  double cut_off = 0;     ///< area of the smaller of the two parts that it leaves; 0 where it joins two loops
+  double neck_ratio = 0;  ///< of a neck: length / root of what it cuts off; small is good
 
   double length() const { return (at[1] - at[0]).norm(); }
 };

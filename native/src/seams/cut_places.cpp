@@ -3,22 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <queue>
 
 #include "cut/scale_forecast.h"
 #include "geometry/boundary.h"
+#include "geometry/plane.h"
+#include "seams/edge_ways.h"
 
 namespace atlas_refine {
 namespace {
 
-constexpr int kCharts = 6;           // that lose most: only they are looked at
-constexpr int kNecks = 24;           // of each chart
-constexpr double kLeastPart = 0.02;  // of the chart's area: less is not worth a seam
-constexpr double kAround = 0.75;     // of a cut's length: what is so near it can relax
-constexpr int kWays = 2;             // to each point of high curvature, of the chart that loses most,
-constexpr int kTipsPart = 3;         // one of so many cuts leads to such a point
+constexpr int kCharts = 6;        // that lose most: only they are looked at
+constexpr int kNecks = 24;        // of each chart
+constexpr double kAround = 0.75;  // of a cut's length: what is so near it can relax
+constexpr int kWays = 2;          // to each point of high curvature, of the chart that loses most,
+constexpr int kTipsPart = 3;      // one of so many cuts leads to such a point
 
 double lost(const ChartState& state) { return std::accumulate(state.energy.begin(), state.energy.end(), 0.0); }
 
@@ -33,20 +32,14 @@ std::vector<int> charts_by_loss(const std::vector<ChartState>& states) {
   return out;
 }
 
-double plane_area(const Border& border) {
+double area_within(const Border& border) {
   double sum = 0;
-  for (const std::vector<Vec2>& loop : border.at) {
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const Vec2 &a = loop[k], &b = loop[(k + 1) % loop.size()];
-      sum += 0.5 * (a.x() * b.y() - a.y() * b.x());
-    }
-  }
+  for (const std::vector<Vec2>& loop : border.at) sum += 0.5 * doubled_area(loop);
   return sum;
 }
 
 struct Ranked {
   CutPlace place;
-  double neck;      // length for what is cut off: small is good
   double released;  // loss nearby for its length: large is good
 };
 
@@ -79,36 +72,21 @@ std::vector<char> near_border(const ChartState& state, const Border& border) {
   return out;
 }
 
-/// Distances along edges in the UV plane.
-std::vector<double> distances_from(const ChartState& state, const std::vector<char>& sources) {
-  const SplitMesh& mesh = state.cuts->mesh();
-  std::vector<double> out(mesh.vertex_count(), std::numeric_limits<double>::infinity());
-  std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue;
-  for (int v = 0; v < static_cast<int>(sources.size()); ++v) {
-    if (sources[v]) queue.emplace(out[v] = 0, v);
-  }
-  while (!queue.empty()) {
-    const auto [d, v] = queue.top();
-    queue.pop();
-    if (d > out[v]) continue;
-    for (const Side& s : mesh.fan(v)) {
-      const int w = mesh.to(s);
-      const double through = d + (mesh.uvs[w] - mesh.uvs[v]).norm();
-      if (through < out[w]) queue.emplace(out[w] = through, w);
-    }
-  }
-  return out;
-}
-
 /// Ways from the border to points that would be scaled much, were the chart laid flat as it is cut. What a way there saves grows
 /// with the square of the scale's logarithm and of the distance, which it costs.
 std::vector<CutPlace> ways_to_tips(const ChartState& state, int chart, const Border& border, int most) {
   const std::vector<char> at_border = near_border(state, border);
   const std::vector<double> scales = ScaleForecast(*state.chart).logarithms(at_border);
-  const std::vector<double> away = distances_from(state, at_border);
+  const SplitMesh& mesh = state.cuts->mesh();
+  std::vector<int> sources;
+  for (int v = 0; v < static_cast<int>(at_border.size()); ++v) {
+    if (at_border[v]) sources.push_back(v);
+  }
+  const auto length = [&](const Side& s) { return (mesh.uvs[mesh.to(s)] - mesh.uvs[mesh.from(s)]).norm(); };
+  const std::vector<double> away = edge_ways(mesh, sources, length, [](int) { return true; }).cost;
   std::vector<double> worth(scales.size(), 0);
   for (std::size_t v = 0; v < scales.size(); ++v) worth[v] = at_border[v] ? 0 : scales[v] * scales[v] * away[v];
-  const std::vector<Vec2>& uvs = state.cuts->mesh().uvs;
+  const std::vector<Vec2>& uvs = mesh.uvs;
   std::vector<CutPlace> out;
   while (static_cast<int>(out.size()) + kWays <= most) {
     const int tip = static_cast<int>(std::max_element(worth.begin(), worth.end()) - worth.begin());
@@ -131,15 +109,13 @@ std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int most
   const std::vector<int> charts = charts_by_loss(states);
   for (const int c : charts) {
     const Border border = states[c].cuts->border();
-    const double area = plane_area(border);
-    for (const Chord& chord : necks(border, kLeastPart * area, kNecks)) {
-      const double part = chord.cut_off > 0 ? chord.cut_off : 0.25 * area;
-      ranked.push_back({{c, chord}, chord.length() / std::sqrt(part), loss_near(states[c], chord) / chord.length()});
-    }
+    for (const Chord& chord : necks(border, kLeastPart * area_within(border), kNecks))
+      ranked.push_back({{c, chord}, loss_near(states[c], chord) / chord.length()});
     if (c == charts.front()) tips = ways_to_tips(states[c], c, border, most / kTipsPart);
   }
   std::vector<Ranked> by_loss = ranked;
-  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.neck < b.neck; });
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const Ranked& a, const Ranked& b) { return a.place.chord.neck_ratio < b.place.chord.neck_ratio; });
   std::stable_sort(by_loss.begin(), by_loss.end(), [](const Ranked& a, const Ranked& b) { return a.released > b.released; });
   std::vector<CutPlace> out;
   const auto add = [&](const CutPlace& place) {

@@ -7,6 +7,8 @@
 
 namespace atlas_refine {
 
+inline constexpr double kLeastPart = 0.02;  ///< of its chart's area: less is not worth a seam
+
 /// A cut that may pay.
 struct CutPlace {
   int chart;

@@ -6,7 +6,7 @@
 namespace atlas_refine {
 
 /// A budget of row words looked at. A fuzzer wants many packings, not good ones.
-constexpr std::int64_t effort(std::int64_t words) {
+constexpr std::int64_t budget(std::int64_t words) {
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
   return words / 50;
 #else
