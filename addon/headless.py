@@ -31,7 +31,7 @@ from .core.batch_record import (
 from .core.options import Options
 from .core.presets import PresetError
 from .core.summary import headline, notes
-from .core.words import plain
+from .core.words import plain, titled
 
 #: Exit codes, in the words of docs/command_line.md. Of several the first counts.
 INTERRUPTED, INTERNAL, INPUT, MISSED = 130, 1, 3, 4
@@ -86,8 +86,7 @@ def _make_folder(folder):
 
 
 def _options(arguments):
-    values = {**(presets.values_of(arguments.preset) if arguments.preset else {}), **arguments.options}
-    return Options(**{name: round(value, 6) if isinstance(value, float) else value for name, value in values.items()})
+    return Options(**{**(presets.values_of(arguments.preset) if arguments.preset else {}), **arguments.options})
 
 
 @contextmanager
@@ -198,7 +197,7 @@ def _refine_file(item, options, arguments, record):
 def _told(done):
     yield f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}"
     for note in (*done.notes, *notes(done.result)):
-        yield note if note.startswith(done.title) else f"{done.title}: {note}"
+        yield titled(done.title, note)
 
 
 def _run_to_the_end(options):

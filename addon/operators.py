@@ -10,9 +10,9 @@ from .bridge import problems, selection
 from .bridge.mesh import MeshError, find_uv_map
 from .core.presets import PresetError
 from .core.summary import headline, measured, notes
-from .core.words import counted
+from .core.words import counted, titled
 from .properties import all_properties, to_options
-from .running import Runs, poll_objects, report_problem
+from .running import OnObjects, Runs
 
 
 class UV_OT_atlas_refine(Runs, bpy.types.Operator):
@@ -35,10 +35,6 @@ class UV_OT_atlas_refine(Runs, bpy.types.Operator):
         ),
     }
 
-    @classmethod
-    def poll(cls, context):
-        return poll_objects(cls, context)
-
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
@@ -53,10 +49,10 @@ class UV_OT_atlas_refine(Runs, bpy.types.Operator):
         except PresetError as error:
             self.report({"ERROR"}, str(error))
             return None
-        options = to_options(self)
+        options, keywords = to_options(self), {}
         if self.point >= 0:
-            options = options.for_trade_off()
-        return self._begun(tasks.Run(context, options, beside_window, trade_off.keywords(self.point)))
+            options, keywords = options.for_trade_off(), {**trade_off.SEARCH, "point": self.point}
+        return self._begun(tasks.Run(context, options, beside_window, keywords))
 
     def _finish(self, run):
         if run.cancelled:
@@ -65,11 +61,11 @@ class UV_OT_atlas_refine(Runs, bpy.types.Operator):
         all_done = run.finish()
         for done in all_done:
             for note in (*done.notes, *notes(done.result)):
-                self.report({"WARNING"}, note if note.startswith(done.title) else f"{done.title}: {note}")
+                self.report({"WARNING"}, titled(done.title, note))
         if waiting := len(run.atlases) - len(run.begun):
             self.report({"WARNING"}, f"Stopped before the turn of {counted(waiting, 'more object')}, left as before")
         for name, text in run.problems:
-            report_problem(self, name, text)
+            self.report_problem(name, text)
         for done in all_done:
             self.report({"INFO"}, f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}")
         return {"FINISHED"} if all_done else {"CANCELLED"}
@@ -91,22 +87,18 @@ class UV_OT_atlas_refine_keep_best(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class UV_OT_atlas_refine_measure(bpy.types.Operator):
+class UV_OT_atlas_refine_measure(OnObjects, bpy.types.Operator):
     """Show how much of the texture the UV charts cover, and how distorted they are; nothing is changed"""
 
     bl_idname = "uv.atlas_refine_measure"
     bl_label = "Measure Atlas"
     bl_options = {"REGISTER"}
 
-    @classmethod
-    def poll(cls, context):
-        return poll_objects(cls, context)
-
     def execute(self, context):
         trouble = []
         found = tasks.measure_all(context, to_options(context.scene.atlas_refine), trouble)
         for name, text in trouble:
-            report_problem(self, name, text)
+            self.report_problem(name, text)
         for done in found:
             self.report({"INFO"}, f"{done.title}: {measured(done.measures, done.is_free, done.reached_beyond)}")
         drawing.redraw_panels(context)
@@ -120,10 +112,6 @@ class UV_OT_atlas_refine_trade_off(Runs, bpy.types.Operator):
     bl_label = "Show Trade-off"
     bl_options = {"REGISTER"}
 
-    @classmethod
-    def poll(cls, context):
-        return poll_objects(cls, context)
-
     def _start(self, context, beside_window=False):
         options = to_options(context.scene.atlas_refine).for_trade_off()
         return self._begun(trade_off.Search(context, options, beside_window))
@@ -134,14 +122,14 @@ class UV_OT_atlas_refine_trade_off(Runs, bpy.types.Operator):
             return {"CANCELLED"}
         found = run.finish()
         for name, text in run.problems:
-            report_problem(self, name, text)
+            self.report_problem(name, text)
         for seams, distortion, cuts in found:
             self.report({"INFO"}, f"{run.atlases[0].title}: new seams {seams} ({cuts}), distortion {distortion}")
         drawing.redraw_panels(bpy.context)
         return {"FINISHED"} if found else {"CANCELLED"}
 
 
-class UV_OT_atlas_refine_select_problems(bpy.types.Operator):
+class UV_OT_atlas_refine_select_problems(OnObjects, bpy.types.Operator):
     """Select the faces that a refinement has to mend or to leave as they are"""
 
     bl_idname = "uv.atlas_refine_select_problems"
@@ -157,10 +145,6 @@ class UV_OT_atlas_refine_select_problems(bpy.types.Operator):
             default={name.upper() for name in problems.KINDS if name != "mirrored"},
         )
     }
-
-    @classmethod
-    def poll(cls, context):
-        return poll_objects(cls, context)
 
     def execute(self, context):
         wanted = [kind for kind in problems.KINDS if kind.upper() in self.kinds]
@@ -186,7 +170,7 @@ class UV_OT_atlas_refine_select_problems(bpy.types.Operator):
             except MeshError as error:
                 reason = str(error)
         if reason:
-            report_problem(self, obj.name, reason)
+            self.report_problem(obj.name, reason)
         return not reason
 
     def _select(self, obj, uv_map, wanted):

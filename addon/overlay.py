@@ -15,6 +15,7 @@ from .bridge import mesh as bridge
 from .bridge import parts as objects
 from .bridge import versions
 from .bridge.texture import find_texture
+from .changes import Watch
 from .core.overlay import Look, picture_of
 from .drawing import redraw_panels, redraw_views
 from .properties import to_options
@@ -195,40 +196,25 @@ def _draw(context, batches, where):
         batch.draw(lines)
 
 
-@bpy.app.handlers.persistent
-def _changed(*_):
+def _changed():
     _cache.stale = True
 
 
-@bpy.app.handlers.persistent
-def _geometry_changed(_scene, depsgraph):
-    if _handles and any(update.is_updated_geometry for update in depsgraph.updates):
-        _cache.stale = True
-
-
-@bpy.app.handlers.persistent
-def _before_load(*_):
+def _switch_off():
     for layer in shown:
         shown[layer] = False
     _remove()
 
 
-_HANDLERS = (
-    ("load_pre", _before_load),
-    ("undo_post", _changed),
-    ("redo_post", _changed),
-    ("depsgraph_update_post", _geometry_changed),
-)
+_watch = Watch(_switch_off, _changed, is_needed=lambda: _handles)
 
 
 def register():
-    for name, function in _HANDLERS:
-        getattr(bpy.app.handlers, name).append(function)
+    _watch.register()
 
 
 def unregister():
-    _before_load()
+    _switch_off()
     if bpy.app.timers.is_registered(redraw_views):
         bpy.app.timers.unregister(redraw_views)
-    for name, function in _HANDLERS:
-        getattr(bpy.app.handlers, name).remove(function)
+    _watch.unregister()

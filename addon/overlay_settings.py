@@ -36,8 +36,8 @@ def draw(layout, context):
     row = layout.row(align=True)
     for name in overlay.shown:
         row.prop(switches, name, toggle=True)
-    if switches.stretch:
-        chosen = preferences.get()
+    chosen = preferences.get()
+    if switches.stretch and isinstance(chosen, bpy.types.AddonPreferences):  # else there is nothing to choose
         legend = layout.row(align=True)
         legend.prop(chosen, "heat_low", text="1")
         legend.prop(chosen, "heat_high", text=f"{chosen.heat_worst:g}")

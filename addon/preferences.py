@@ -7,7 +7,6 @@ from types import SimpleNamespace
 import bpy
 from bpy.props import IntProperty, StringProperty
 
-from .core.options import Options
 from .properties import PREFERRED, overlay_properties
 
 
@@ -50,20 +49,13 @@ class AtlasRefinePreferences(bpy.types.AddonPreferences):
             column.prop(self, name)
 
 
+_DEFAULTS = SimpleNamespace(**{name: made.keywords["default"] for name, made in AtlasRefinePreferences.__annotations__.items()})
+
+
 def get():
-    """The preferences; the overlay's alone, by their defaults, where the add-on runs without having been ticked."""
+    """The preferences, or their defaults where the add-on runs without having been ticked (Blender's --addons)."""
     addon = bpy.context.preferences.addons.get(__package__)
-    if addon is not None:
-        return addon.preferences
-    return SimpleNamespace(**{name: made.keywords["default"] for name, made in overlay_properties().items()})
-
-
-def value(name):
-    """A preference, or its default where the add-on runs without having been ticked (Blender's --addons)."""
-    addon = bpy.context.preferences.addons.get(__package__)
-    if addon is not None:
-        return getattr(addon.preferences, name)
-    return getattr(Options, name, "")
+    return _DEFAULTS if addon is None else addon.preferences
 
 
 def register():

@@ -14,11 +14,11 @@ from bpy.props import StringProperty
 
 from . import preferences
 from .core.option_kinds import OptionKind
-from .core.presets import OWN, PresetError, find_presets, preset_named, preset_text, preset_values
+from .core.presets import BUILT_IN, OWN, STUDIO, PresetError, find_presets, preset_named, preset_text, preset_values
 from .properties import OPTION_NAMES
 
 SUBFOLDER = "operator/uv.atlas_refine"  # where Blender keeps the presets of an operator
-_TITLES = {"own": "Your Own", "studio": "Studio", "built-in": "Built-in"}
+_TITLES = {OWN: "Your Own", STUDIO: "Studio", BUILT_IN: "Built-in"}
 
 
 def option_kinds():
@@ -34,7 +34,7 @@ def _kind(option):
 
 
 def all_presets():
-    studio = preferences.value("studio_presets")
+    studio = preferences.get().studio_presets
     return find_presets(bpy.utils.preset_paths(SUBFOLDER), bpy.path.abspath(studio) if studio else "")
 
 

@@ -5,33 +5,35 @@ import bpy
 
 from . import drawing, tasks
 from .bridge import parts as objects
-from .core.words import phase, plain
+from .core.words import phase, plain, titled
 
 POLL_SECONDS = 0.1
 
 
-def poll_objects(cls, context):
-    """Whether there is something to work on; the message says why not."""
-    found = objects.objects_of(context)
-    if not found:
-        cls.poll_message_set("Select a mesh object")
-        return False
-    reasons = [(obj.name, objects.why_not(obj)) for obj in found]
-    if all(reason for _, reason in reasons):
-        cls.poll_message_set(f"{reasons[0][0]}: {reasons[0][1]}")
-        return False
-    if tasks.running is not None:
-        cls.poll_message_set("A refinement is running; Esc cancels it")
-        return False
-    return True
+class OnObjects:
+    """An operator that needs something to work on."""
+
+    @classmethod
+    def poll(cls, context):
+        """The message says why not."""
+        found = objects.objects_of(context)
+        if not found:
+            cls.poll_message_set("Select a mesh object")
+            return False
+        reasons = [(obj.name, objects.why_not(obj)) for obj in found]
+        if all(reason for _, reason in reasons):
+            cls.poll_message_set(f"{reasons[0][0]}: {reasons[0][1]}")
+            return False
+        if tasks.running is not None:
+            cls.poll_message_set("A refinement is running; Esc cancels it")
+            return False
+        return True
+
+    def report_problem(self, name, text):
+        self.report({"ERROR"}, titled(name, plain(text)))
 
 
-def report_problem(operator, name, text):
-    text = plain(text)
-    operator.report({"ERROR"}, text if text.startswith(name) else f"{name}: {text}")
-
-
-class Runs:
+class Runs(OnObjects):
     """An operator with _start(context, beside_window), a tasks.Run or None, and _finish(run), what Blender is answered."""
 
     def execute(self, context):
@@ -78,7 +80,7 @@ class Runs:
         if run.atlases:
             return run
         for name, text in run.problems or [("Atlas Refine", "there is nothing to refine")]:
-            report_problem(self, name, text)
+            self.report_problem(name, text)
         return None
 
     def _is_keep_best(self, context, event):

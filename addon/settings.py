@@ -21,7 +21,7 @@ def _follow_preference(name):
         value = scene_settings.get(key)
         if value is not None:
             return value
-        value = preferences.value(name)
+        value = getattr(preferences.get(), name)
         return _seams_number(value) if name == "seams" else value
 
     return {"get": get, "set": lambda scene_settings, value: scene_settings.__setitem__(key, value)}

@@ -14,6 +14,7 @@ from .bridge import cuts
 from .bridge import mesh as bridge
 from .bridge import parts as objects
 from .bridge.texture import active_tile, find_texture
+from .changes import Watch
 from .core.atlas import stored_uvs
 from .core.cuts import plan_cut, seam_edges
 from .core.request import NothingToDoError, prepare
@@ -168,7 +169,7 @@ class Run:
         self.atlases = self._read(context, options)
         # One core is left to the window.
         automatic = max(1, (os.cpu_count() or 1) - 1) if beside_window else 0
-        self._threads = options.threads or preferences.value("threads") or automatic
+        self._threads = options.threads or preferences.get().threads or automatic
         self.errors = []  # those of the engine and of writing, after finish()
         self.cancelled = False
         self.finishing = False
@@ -346,7 +347,7 @@ def _print(object_name, uv_map):
     return digest.hexdigest()
 
 
-def stop_running(*_):
+def stop_running():
     """Ends the run, if there is one, and waits for its thread: before a file is loaded and on unregister."""
     global running
     if running is not None:
@@ -354,36 +355,24 @@ def stop_running(*_):
         running = None
 
 
-@bpy.app.handlers.persistent
-def _doubt(*_):
+def _doubt():
     global _in_doubt
     _in_doubt = True
 
 
-@bpy.app.handlers.persistent
-def _doubt_geometry(_scene, depsgraph):
-    if last is not None and any(update.is_updated_geometry for update in depsgraph.updates):
-        _doubt()
-
-
-@bpy.app.handlers.persistent
-def _before_load(*_):
+def _forget():
     global last
     stop_running()
     last = None
 
 
-_HANDLERS = (("load_pre", _before_load), ("undo_post", _doubt), ("redo_post", _doubt), ("depsgraph_update_post", _doubt_geometry))
+_watch = Watch(_forget, _doubt, is_needed=lambda: last is not None)
 
 
 def register():
-    for name, function in _HANDLERS:
-        getattr(bpy.app.handlers, name).append(function)
+    _watch.register()
 
 
 def unregister():
-    global last
-    stop_running()
-    last = None
-    for name, function in _HANDLERS:
-        getattr(bpy.app.handlers, name).remove(function)
+    _forget()
+    _watch.unregister()

@@ -3,9 +3,8 @@
 
 from dataclasses import dataclass
 
-import bpy
-
 from . import tasks
+from .changes import Watch
 from .core.options import Options
 from .core.summary import trade_off_lines
 
@@ -21,11 +20,8 @@ class Choice:
     prints: tuple  # of the meshes that it is true of
 
 
-def keywords(point=None):
-    """The engine's, of a search for all outcomes. `point`: the one that is wanted; no search where it is below 0."""
-    if point is None:
-        return {"trade_off": True}
-    return {"trade_off": True, "point": point} if point >= 0 else {}
+#: The engine's keyword for a search for all outcomes.
+SEARCH = {"trade_off": True}
 
 
 class Search(tasks.Run):
@@ -34,7 +30,7 @@ class Search(tasks.Run):
     writes = False
 
     def __init__(self, context, options, beside_window):
-        super().__init__(context, options, beside_window, keywords())
+        super().__init__(context, options, beside_window, SEARCH)
 
     def _read(self, context, options):
         atlases = super()._read(context, options)
@@ -75,34 +71,24 @@ def _is_still_true():
     return _is_true
 
 
-@bpy.app.handlers.persistent
-def _forget(*_):
+def _forget():
     global shown
     shown = None
 
 
-@bpy.app.handlers.persistent
-def _doubt(*_):
+def _doubt():
     global _in_doubt
     _in_doubt = True
 
 
-@bpy.app.handlers.persistent
-def _doubt_geometry(_scene, depsgraph):
-    """What is no longer true only an undo makes so again: meshes that are worked on are not looked at again and again."""
-    if shown is not None and _is_true and any(update.is_updated_geometry for update in depsgraph.updates):
-        _doubt()
-
-
-_HANDLERS = (("load_pre", _forget), ("undo_post", _doubt), ("redo_post", _doubt), ("depsgraph_update_post", _doubt_geometry))
+#: What is no longer true only an undo makes so again: meshes that are worked on are not looked at again and again.
+_watch = Watch(_forget, _doubt, is_needed=lambda: shown is not None and _is_true)
 
 
 def register():
-    for name, function in _HANDLERS:
-        getattr(bpy.app.handlers, name).append(function)
+    _watch.register()
 
 
 def unregister():
     _forget()
-    for name, function in _HANDLERS:
-        getattr(bpy.app.handlers, name).remove(function)
+    _watch.unregister()

@@ -194,7 +194,7 @@ class Headless(unittest.TestCase):
             ([source, *out, "--shard", "3/2"], "1 <= I <= N"),
             ([source, *out, "--seams", "some"], "seams is one of NONE, NEEDED, RECTANGLES"),
             ([source, *out, "--pe-bound", "many"], "pe_bound is a number"),
-            ([source, *out, "--pe-bound", "1.2"], "packing"),
+            ([source, *out, "--pe-bound", "1.2"], "texture use"),
             ([source, *out, "--nothing"], "--nothing"),
             ([source, *out, "--selected", "--object", "A"], "exclude each other"),
             ([source, self.make("sub/a.blend"), *out], "would both become"),
@@ -202,7 +202,7 @@ class Headless(unittest.TestCase):
             code, _, err = self.run_it(*arguments)
             self.assertEqual(code, 2, arguments)
             self.assertEqual(err.count("\n"), 1, err)
-            self.assertIn(words, err.replace("texture use", "packing"))
+            self.assertIn(words, err)
 
     def test_help_names_every_option(self):
         code, out, _ = self.run_it("--help")

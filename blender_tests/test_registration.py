@@ -75,7 +75,9 @@ class Registration(unittest.TestCase):
             ours.atlas_refine,
             ours.atlas_refine_keep_best,
             ours.atlas_refine_measure,
+            ours.atlas_refine_trade_off,
             ours.atlas_refine_select_problems,
+            ours.atlas_refine_load_preset,
         ):
             kind = operator.get_rna_type()
             texts = [(kind.name, kind.description)]

@@ -1,7 +1,8 @@
 """The demo: a subdivided Suzanne in headless Blender, unwrapped by Blender, brought to PE 0.80 by the add-on's operator.
 
-usage: demo.py OUT_DIR     writes before.png, after.png, tighter.png (0.90), squeezed.png, needed4.png to needed10.png and cut.png (seams none, needed within
-                           three budgets, rectangles in a square), before.obj, after.obj, suzanne.blend and table.txt
+usage: demo.py OUT_DIR     writes before.png, after.png, tighter.png (0.90); in a square squeezed.png (seams none), needed4.png to
+                           needed10.png (needed, within three budgets) and cut.png (rectangles); before.obj, after.obj,
+                           suzanne.blend and table.txt
 """
 
 import json

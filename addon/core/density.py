@@ -50,10 +50,11 @@ def density_lines(density):
     if density.wanted == 0 or density.now == 0:
         return
     if density.is_free and density.after is not None:
-        longest, has = math.ceil(max(density.box_px) - 1e-3), max(density.size)
+        longest = max(density.box_px)
     else:
-        longest, has = math.ceil(max(density.size) * density.wanted / density.now - 1e-3), max(density.size)
-    enough = "it has them" if longest <= has else f"take {_power_of_two(longest)}"
+        longest = max(density.size) * density.wanted / density.now
+    longest = math.ceil(longest - 1e-3)
+    enough = "it has them" if longest <= max(density.size) else f"take {_power_of_two(longest)}"
     yield f"{_short(density.wanted)} px/m need {longest} px: {enough}"
 
 

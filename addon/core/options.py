@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the artist asked for, in the engine's words."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 
 @dataclass(frozen=True)
@@ -49,10 +49,17 @@ class Options:
     seed: int = 1
     threads: int = 0  # 0: all
 
+    def __post_init__(self):
+        """Blender's properties are float32: 0.8 arrives as 0.800000012."""
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, float):
+                object.__setattr__(self, field.name, round(value, 6))
+
     def engine_arguments(self, texture=None):
         """Keywords of atlas_refine.start(), for UVs that are stored as float32; `texture`: of the atlas, where there is one."""
         arguments = {
-            "pe_bound": round(self.pe_bound, 6),  # Blender's properties are float32: 0.8 arrives as 0.800000012
+            "pe_bound": self.pe_bound,
             **self.box_arguments(texture),
             "seams": self.seams.lower(),
             "cut": self.cut.lower(),
@@ -65,9 +72,9 @@ class Options:
             "stored": "float32",
         }
         if self.max_distortion != 0:  # the engine refuses what is below 1
-            arguments["max_distortion"] = round(self.max_distortion, 6)
+            arguments["max_distortion"] = self.max_distortion
         if self.seams == "RECTANGLES":
-            arguments.update(sigma=round(self.sigma, 6), candidates=self.candidates)
+            arguments.update(sigma=self.sigma, candidates=self.candidates)
         if self.seams == "NEEDED":
             arguments.update(self._arguments_of_cuts())
         if self.gap == "PIXELS":
@@ -79,7 +86,7 @@ class Options:
         return replace(self, seams="NEEDED", max_distortion=0.0, limit_new_seams=False)
 
     def _arguments_of_cuts(self):
-        arguments = {"seam_cost": round(self.seam_cost, 6), "effort": self.effort.lower()}
+        arguments = {"seam_cost": self.seam_cost, "effort": self.effort.lower()}
         if self.limit_new_seams:
             arguments["max_boundary_growth"] = round(self.most_new_seams / 100, 6)
         return arguments

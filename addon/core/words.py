@@ -20,6 +20,11 @@ def plain(message):
     return _CHART.sub(lambda found: f"face {found.group(1)}" if found.group(1) else "1 chart", message)
 
 
+def titled(title, text):
+    """The text with what it is about before it, unless it begins with that."""
+    return text if text.startswith(title) else f"{title}: {text}"
+
+
 def counted(count, one):
     return f"{count} {one if count == 1 else one + 's'}"
 

@@ -29,6 +29,7 @@ from driver import (
     click_at,
     enter_edit_mode,
     faces_in_edit_mode,
+    finished,
     key,
     mesh_size,
     picture,
@@ -61,7 +62,7 @@ def test_the_button_refines_and_one_undo_takes_it_back():
     before = uvs(obj)
     bpy.ops.ed.undo_push(message="Made a mesh")
     yield from start(obj)
-    yield lambda: tasks().last is not None and not running()
+    yield finished
     yield 0.3
     picture("refined")
     obj = bpy.data.objects["Loose"]
@@ -76,7 +77,7 @@ def test_the_window_lives_while_it_runs_and_esc_stops_it():
     obj = slow_mesh()
     before = uvs(obj)
     yield from start(obj, pe_bound=0.95)
-    yield lambda: running()
+    yield running
     fractions = []
     for _ in range(10):  # the window's own timers run, and so does the engine
         assert running(), "over too soon to be stopped"
@@ -98,7 +99,7 @@ def test_the_window_lives_while_it_runs_and_esc_stops_it():
 def test_a_mesh_that_changed_meanwhile_is_left_alone():
     obj = add_mesh(shapes.arcs(4, 60), name="Changed")
     yield from start(obj, pe_bound=0.9)
-    yield lambda: running()
+    yield running
     obj.data.vertices[0].co.x += 1.0
     changed = uvs(obj)
     yield lambda: not running()
@@ -114,7 +115,7 @@ def test_edit_mode_from_the_button():
     enter_edit_mode()
     tasks().last = None
     yield from start(obj)
-    yield lambda: tasks().last is not None and not running()
+    yield finished
     assert obj.mode == "EDIT"
     bpy.ops.object.mode_set(mode="OBJECT")
     assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
@@ -133,7 +134,7 @@ def test_seams_as_needed_by_clicks():
     yield from until(lambda: bpy.context.scene.atlas_refine.seams == "NEEDED", "the menu does not set the road")
     tasks().last = None
     yield from click(BUTTON)
-    yield lambda: tasks().last is not None and not running()
+    yield finished
     yield 0.5
     picture("needed")
     assert tasks().last[0].result.cuts.cuts == 2
@@ -149,7 +150,7 @@ def test_seams_as_needed_by_clicks():
     seams, distortion, _ = sys.modules[f"{MODULE}.trade_off"].shown.lines[3]
     tasks().last = None
     yield from click(FOURTH_USE)
-    yield lambda: tasks().last is not None and not running()
+    yield finished
     yield 0.5
     picture("trade-off-used")
     result = tasks().last[0].result
@@ -158,7 +159,6 @@ def test_seams_as_needed_by_clicks():
     yield from until(lambda: uvs(bpy.data.objects["Sheet"]).tobytes() == before.tobytes(), "one undo does not take it back")
     yield 0.5
     picture("trade-off-again")
-    settings = bpy.context.scene.atlas_refine
     settings = bpy.context.scene.atlas_refine
     settings.seams, settings.max_distortion = "NONE", 0.0
 
@@ -179,7 +179,7 @@ def test_rectangles_by_clicks():
     picture("rectangles")
     tasks().last = None
     yield from click(BUTTON)
-    yield lambda: tasks().last is not None and not running()
+    yield finished
     yield 0.3
     picture("cut")
     obj = bpy.data.objects["Cut"]
@@ -206,7 +206,7 @@ def test_rectangles_in_edit_mode_with_custom_normals_and_one_undo():
     yield 0.3
     faces = len(obj.data.polygons)
     yield from click(BUTTON)
-    yield lambda: tasks().last is not None and not running()
+    yield finished
     yield 0.3
     obj = bpy.data.objects["Normals"]
     assert obj.mode == "EDIT"
@@ -239,7 +239,7 @@ def test_f3_finds_it():
     yield 0.5
     picture("f3")
     yield from key("RET", over=(x, y))
-    yield lambda: tasks().last is not None and not running()
+    yield finished
     bpy.ops.object.mode_set(mode="OBJECT")
     assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
 
@@ -266,7 +266,7 @@ def test_the_3d_view_has_the_panel():
 
 def test_another_file_ends_a_run():
     yield from start(slow_mesh(), pe_bound=0.95)
-    yield lambda: running()
+    yield running
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     yield from until(lambda: not running(), "it goes on in another file")
     enable_addon()
@@ -275,7 +275,7 @@ def test_another_file_ends_a_run():
     obj = add_mesh()
     tasks().last = None
     yield from start(obj)
-    yield lambda: tasks().last is not None and not running()
+    yield finished
     assert packing_efficiency(obj.data, obj.data.uv_layers.active) >= 0.8
 
 

@@ -117,6 +117,10 @@ def running():
     return tasks().running is not None
 
 
+def finished():
+    return tasks().last is not None and not running()
+
+
 def enter_edit_mode():
     """With everything selected."""
     bpy.context.scene.tool_settings.use_uv_select_sync = True

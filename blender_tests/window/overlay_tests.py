@@ -9,6 +9,7 @@ from driver import (
     STEP_SECONDS,
     click,
     enter_edit_mode,
+    finished,
     key,
     picture,
     running,
@@ -110,7 +111,7 @@ def test_overlay_stretch_and_borders_in_the_uv_editor():
     preferences().heat_opacity = 0.7
     # What was near is not any more once it is refined.
     yield from start(obj, pe_bound=0.6)
-    yield lambda: tasks().last is not None and not running()
+    yield finished
     show("gap")
     yield 0.5
     assert like(seen("overlay-gap-refined", uv_editor()), preferences().near_colour) == 0
@@ -152,18 +153,19 @@ def test_overlay_in_both_editors_and_pictures_of_the_manual():
     yield 0.5
     picture("manual-before")
     yield from start(obj, pe_bound=0.8)
-    yield lambda: tasks().last is not None and not running()
-    settings.seams = "NONE"
+    yield finished
     show("stretch", "seams")
     for _ in range(12):  # the panel opens step by step, while it is drawn
         for region in uv_editor().regions:
             region.tag_redraw()
         yield 0.1
     after = seen("manual-after", uv_editor())
+    settings.seams = "NONE"
     assert like(after, preferences().seam_colour, 0.2) > 0.0002
     area = uv_editor()
     area.ui_type = "VIEW_3D"
     area.spaces.active.show_region_ui = False
+    area.spaces.active.overlay.show_outline_selected = False  # as orange as new seams
     fit_view(bpy.ops.view3d.view_axis, type="FRONT")
     fit_view(bpy.ops.view3d.view_selected)
     yield 1.0

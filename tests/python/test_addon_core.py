@@ -1,15 +1,9 @@
 """addon/core: what the add-on does without Blender."""
 
-import pathlib
-import sys
-
 import atlas_refine
 import numpy as np
 import pytest
 import shapes
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "addon"))
-
 from core.atlas import AtlasArrays, stored_uvs
 from core.manifold import faces_at_fault
 from core.options import Options, Texture

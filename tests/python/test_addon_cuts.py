@@ -1,19 +1,14 @@
 """addon/core/cuts.py: how a mesh becomes the engine's cut mesh, without Blender."""
 
 import itertools
-import pathlib
-import sys
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import shapes
-from cuts import Cutter
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "addon"))
-
 from core.atlas import AtlasArrays
 from core.cuts import plan_cut, same_faces
+from cuts import Cutter
 
 
 def as_blender_stores(arrays):

@@ -1,20 +1,15 @@
 """addon/core: texel density, without Blender."""
 
-import pathlib
-import sys
 from dataclasses import replace
 
 import atlas_refine
 import numpy as np
 import pytest
 import shapes
-from test_addon_request import faces, make_part, run
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "addon"))
-
 from core.density import Density, density_lines, surface_area, uv_area
 from core.options import Options, Texture
 from core.request import prepare
+from test_addon_request import faces, make_part, run
 
 VALUE = Options(aspect="FREE", gap="AUTO", density="VALUE", texel_density=300.0, texture_size=1024, pe_bound=0.6)
 

@@ -1,15 +1,9 @@
 """addon/core: what the overlay draws, without Blender."""
 
-import pathlib
-import sys
-
 import atlas_refine
 import numpy as np
 import pytest
 import shapes
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "addon"))
-
 from core import borders, heat
 from core.atlas import AtlasArrays
 from core.overlay import Look, picture_of

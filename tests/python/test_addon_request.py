@@ -1,15 +1,9 @@
 """addon/core: who takes part, several meshes as one, and the engine's result dealt out again, without Blender."""
 
-import pathlib
-import sys
-
 import atlas_refine
 import numpy as np
 import pytest
 import shapes
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "addon"))
-
 from core.atlas import AtlasArrays, stored_uvs
 from core.cuts import plan_cut
 from core.joined import Part

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's word that something changed, for those who keep what is true of a scene."""
+
+import bpy
+
+
+class Watch:
+    """From register() on: before_load() before another file is opened, changed() after undo and redo, and after a mesh changed while
+    is_needed() says so."""
+
+    def __init__(self, before_load, changed, is_needed):
+        @bpy.app.handlers.persistent
+        def on_load(*_):
+            before_load()
+
+        @bpy.app.handlers.persistent
+        def on_undo(*_):
+            changed()
+
+        @bpy.app.handlers.persistent
+        def on_update(_scene, depsgraph):
+            if is_needed() and any(update.is_updated_geometry for update in depsgraph.updates):
+                changed()
+
+        self._handlers = {"load_pre": on_load, "undo_post": on_undo, "redo_post": on_undo, "depsgraph_update_post": on_update}
+
+    def register(self):
+        for name, function in self._handlers.items():
+            getattr(bpy.app.handlers, name).append(function)
+
+    def unregister(self):
+        for name, function in self._handlers.items():
+            getattr(bpy.app.handlers, name).remove(function)
