@@ -66,33 +66,42 @@ def judged(text, holds):
     return f"  {text}: {'yes' if holds else 'NO'}"
 
 
+def mean(values):
+    finite = [value for value in values if math.isfinite(value)]
+    return statistics.fmean(finite) if finite else math.nan
+
+
+def limit_line(low, k):
+    """How the files keep one limit, and at what price."""
+    good = [rows for rows in low if rows[k].ok]
+    times = [rows[k].cpu_seconds / rows[0].cpu_seconds for rows in good]
+    return (
+        f"limit E_d in + {MARGINS[k - 2]:g}: kept on {len(good)} of {len(low)}; no seam on {uncut(good, k)}; "
+        f"growth mean {mean(added(rows[k]) for rows in good):.1%}; "
+        f"time / squeeze median {statistics.median(times) if times else math.nan:.1f}, "
+        f"{sum(t <= MOST_TIMES for t in times)} of {len(times)} within {MOST_TIMES:g}"
+    )
+
+
+def uncut(files, k):
+    return sum(rows[k].bl == rows[k].bl_in for rows in files)
+
+
 def summary(files):
     """What is asked of all files together; of those whose input is not hopeless."""
     low = [rows for rows in files if rows[0].ok and rows[0].e_d_in < LOW_DISTORTION]
-    out = [f"{len(files)} files, {len(low)} with E_d in < {LOW_DISTORTION}"]
-    for k, margin in enumerate(MARGINS, start=2):
-        good = [rows for rows in low if rows[k].ok]
-        growth = [added(rows[k]) for rows in good]
-        finite = [value for value in growth if math.isfinite(value)]
-        uncut = sum(rows[k].bl == rows[k].bl_in for rows in good)
-        times = [rows[k].cpu_seconds / rows[0].cpu_seconds for rows in good]
-        out.append(
-            f"limit E_d in + {margin:g}: kept on {len(good)} of {len(low)}; no seam on {uncut}; growth mean {statistics.fmean(finite):.1%}; "
-            f"time / squeeze median {statistics.median(times):.1f}, {sum(t <= MOST_TIMES for t in times)} of {len(times)} within {MOST_TIMES:g}"
-        )
     both = [rows for rows in low if rows[1].ok and rows[2].ok and added(rows[1]) > 0]
-    ratio = statistics.fmean(added(rows[2]) for rows in both) / statistics.fmean(added(rows[1]) for rows in both)
+    ratio = mean(added(rows[2]) for rows in both) / mean(added(rows[1]) for rows in both)
     more = [f"{rows[0].folder}/{rows[0].file}" for rows in both if added(rows[2]) > added(rows[1])]
     loose = [rows for rows in low if rows[-1].ok]
+    growth = mean(added(rows[-1]) for rows in loose)
     return [
-        *out,
+        f"{len(files)} files, {len(low)} with E_d in < {LOW_DISTORTION}",
+        *(limit_line(low, k) for k in range(2, 2 + len(MARGINS))),
         judged(f"boundary added / that of rectangles, {len(both)} files: {ratio:.3f}, at most {SHARE}", ratio <= SHARE),
         judged(f"more than rectangles on {len(more)} files {' '.join(more)}", not more),
-        judged(f"at + {MARGINS[-1]:g} no seam on half", sum(r[-1].bl == r[-1].bl_in for r in loose) >= HALF * len(low)),
-        judged(
-            f"at + {MARGINS[-1]:g} growth at most {MOST_GROWTH:.0%}",
-            statistics.fmean(map(added, (r[-1] for r in loose))) <= MOST_GROWTH,
-        ),
+        judged(f"at + {MARGINS[-1]:g} no seam on half", uncut(loose, -1) >= HALF * len(low)),
+        judged(f"at + {MARGINS[-1]:g} growth at most {MOST_GROWTH:.0%}", growth <= MOST_GROWTH),
     ]
 
 
