@@ -156,7 +156,7 @@ inline Laid laid(const Atlas& atlas, double pe_bound = 0.8, double sigma = 0.01)
   out.layout = search_layout(out.aligned, out.set.charts, layout_options(pe_bound), monitor);
   TracedTrails traced = trace_trails(out.aligned, out.layout.trails);
   const auto& points = out.set.points;
-  match_boundaries(traced.meshes, points);
+  follow_divided(match_boundaries(traced.meshes, points), traced.paths);
   out.cut = cut_along(divided_atlas(traced.meshes, out.set.charts, points), out.set.charts, traced.paths);
   return out;
 }

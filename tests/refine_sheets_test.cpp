@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 
 #include "atlas_refine/refine.h"
 #include "input/places.h"
+#include "output_atlas.h"
 #include "sheets.h"
 
 namespace atlas_refine {
@@ -82,9 +85,9 @@ TEST(Sheets, FrontAndBackAreTwoCharts) {
   }
 }
 
-/// Length in space of the edges that one face only has; vertices of equal position are one.
-double open_length(const std::vector<Vec3>& positions, const std::vector<int>& offsets, const std::vector<int>& vertices) {
-  const std::vector<int> place = places({"", positions, {}, {}, {}});
+/// Length in space of the edges that one face only has; `place` tells which vertices are one.
+double open_length(const std::vector<Vec3>& positions, const std::vector<int>& offsets, const std::vector<int>& vertices,
+                   const std::vector<int>& place) {
   std::map<std::pair<int, int>, int> faces;
   for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
     for (int c = offsets[f]; c < offsets[f + 1]; ++c) {
@@ -99,19 +102,81 @@ double open_length(const std::vector<Vec3>& positions, const std::vector<int>& o
   return length;
 }
 
+/// Cuts open no edge in space, neither by the vertices that faces have nor by their positions.
+void expect_closed_as_before(const Atlas& before, const RefineResult& result) {
+  const Atlas after = testing::output(before, result);
+  const auto open = [](const Atlas& atlas, const std::vector<int>& place) {
+    return open_length(atlas.positions, atlas.face_offsets, atlas.corner_vertices, place);
+  };
+  const auto by_index = [](const Atlas& atlas) {
+    std::vector<int> out(atlas.positions.size());
+    std::iota(out.begin(), out.end(), 0);
+    return out;
+  };
+  EXPECT_NEAR(open(after, places(after)), open(before, places(before)), 1e-9);
+  EXPECT_NEAR(open(after, by_index(after)), open(before, by_index(before)), 1e-9);
+}
+
+/// A sheet that is nowhere flat.
+Atlas wavy_sheet(int columns, int rows) {
+  Atlas atlas = sheet(columns, rows);
+  for (int v = 0; v < static_cast<int>(atlas.positions.size()); ++v)
+    atlas.positions[v].z() = 0.1 * std::sin(v % (columns + 1)) + 0.1 * std::cos(1.3 * (v / (columns + 1)));
+  return atlas;
+}
+
 TEST(Sheets, CutsLeaveNoOpenEdgeAroundADoubledPatch) {
-  Atlas atlas = sheet(10, 10);
-  for (int v = 0; v < 121; ++v) atlas.positions[v].z() = 0.1 * std::sin(v % 11) + 0.1 * std::cos(1.3 * (v / 11));
+  Atlas atlas = wavy_sheet(10, 10);
   for (const int f : {33, 34, 35, 43, 44, 45, 53, 54, 55}) add_double(atlas, atlas, f, false);
   const RefineResult result = refine(atlas, {.pe_bound = 0.9, .seams = Seams::Rectangles});
   ASSERT_EQ(result.intervention, Intervention::Cut);
-  std::vector<Vec3> positions = atlas.positions;
-  for (const NewVertex& vertex : result.cut->new_vertices) {
-    positions.push_back(Vec3::Zero());
-    for (int k = 0; k < 3; ++k) positions.back() += vertex.weights[k] * atlas.positions[atlas.corner_vertices[vertex.corners[k]]];
+  expect_closed_as_before(atlas, result);
+}
+
+// A trail runs along an edge where three faces meet, which another chart's cut divides.
+TEST(Sheets, CutsMeetAtADoubledStrip) {
+  Atlas atlas = sheet(8, 8);
+  for (int v = 0; v < 81; ++v) atlas.positions[v].z() = 0.03 * std::sin(v % 9) * std::cos(0.7 * (v / 9));
+  for (const int f : {17, 25, 33, 41}) add_double(atlas, atlas, f, false);
+  const RefineResult result = refine(atlas, {.seams = Seams::Rectangles, .box_aspect = 2});
+  ASSERT_EQ(result.intervention, Intervention::Cut);
+  expect_closed_as_before(atlas, result);
+}
+
+/// Two C-shaped charts that meet back to back, and the same elsewhere in space with the same UVs. Cuts that start at
+/// the corners run across quads and end between vertices of the line where they meet.
+Atlas stacked_neighbours() {
+  Atlas grid = sheet(16, 12);
+  // Rows of quads are not where the corners are.
+  const auto bend = [](int v) { return 0.04 * std::sin(v / 17 * std::numbers::pi / 3) * (v % 17 >= 5 && v % 17 < 12); };
+  for (int v = 0; v < 17 * 13; ++v) grid.positions[v] += Vec3(0, bend(v), 0.02 * std::sin(v % 17));
+  Atlas atlas;
+  atlas.face_offsets = {0};
+  for (const double z : {0.0, 9.0}) {
+    const int first = static_cast<int>(atlas.positions.size());
+    for (const Vec3& p : grid.positions) atlas.positions.push_back(p + Vec3(0, 0, z));
+    for (int f = 0; f < grid.face_count(); ++f) {
+      const int i = f % 16, j = f / 16;
+      if (j >= 5 && j < 7 && (i < 4 || i >= 12)) continue;
+      std::vector<int> vertices;
+      std::vector<Vec2> uvs;
+      for (int c = grid.face_offsets[f]; c < grid.face_offsets[f + 1]; ++c) {
+        const int v = grid.corner_vertices[c];
+        vertices.push_back(first + v);
+        uvs.push_back(grid.corner_uvs[c] + Vec2(i < 8 ? 0 : 1, bend(v)));
+      }
+      add_face(atlas, vertices, uvs);
+    }
   }
-  EXPECT_NEAR(open_length(positions, result.cut->face_offsets, result.cut->corner_vertices),
-              open_length(atlas.positions, atlas.face_offsets, atlas.corner_vertices), 1e-9);
+  return atlas;
+}
+
+TEST(Sheets, StackedNeighboursStayClosedWhereTheyFollowCuts) {
+  const Atlas atlas = stacked_neighbours();
+  const RefineResult result = refine(atlas, {.pe_bound = 0.9, .seams = Seams::Rectangles});
+  ASSERT_EQ(result.intervention, Intervention::Cut);
+  EXPECT_EQ(result.charts[2].fate, Fate::Stacked);
+  expect_closed_as_before(atlas, result);
 }
 
 TEST(Sheets, APinchIsLeftAloneWhereChartsAreButMoved) {

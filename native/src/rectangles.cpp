@@ -97,7 +97,7 @@ void tell(const Refinement& run, const CutPlan& plan, const CutAtlas& cut, const
 CutAtlas cut_along_trails(const Refinement& run, const CutPlan& plan) {
   TracedTrails traced = trace_trails(plan.aligned, plan.layout.trails);
   const auto& points = run.input.set.points;
-  match_boundaries(traced.meshes, points);
+  follow_divided(match_boundaries(traced.meshes, points), traced.paths);
   return cut_along(divided_atlas(traced.meshes, plan.sources, points), plan.sources, traced.paths);
 }
 

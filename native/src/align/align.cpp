@@ -29,7 +29,7 @@ constexpr double kSigmaOfWidth = 0.125;  // the sigma of a strip, whose ends els
 // Lines nearer than this many sigmas are made one, unless that raises E_d - 1 by more than the factor.
 constexpr double kSameLine[] = {0.5, 0.1, 1e-3, 1e-6};
 constexpr double kMergeCost = 1.05;
-constexpr double kFreeMerge = 1e-8;  // E_d that merging may always cost: a flat chart has none to multiply
+constexpr double kFreeMerge = 1e-4;  // E_d that merging may always cost: a nearly flat chart has none to multiply, and would be cut into slivers
 constexpr double kAligned = 0.01;    // rad off an axis at most: a boundary that runs along the axes as it is
 constexpr int kLeastTriangles = 4;   // charts of fewer are packed as they are
 constexpr double kTooDistorted = 4;  // E_d of an axis-aligned chart that is not worth it, unless it was more before
@@ -126,9 +126,10 @@ struct AlignedDisk {
 };
 
 /// With near lines made one, in surface units, E_d known; nothing where that fails.
-std::optional<AlignedDisk> finished(Chart chart, AlignedDisk disk, double sigma_length) {
+std::optional<AlignedDisk> finished(Chart chart, AlignedDisk disk, double sigma) {
   chart.uvs = disk.uvs;
   const double energy = dirichlet_sums(chart).best_energy();
+  const double sigma_length = sigma * polar_angles(chart).perimeter();
   for (const double tolerance : kSameLine) {
     chart.uvs = merged_lines(disk.uvs, disk.boundary, disk.quarter_turns, tolerance * sigma_length);
     if (!positive(chart, chart.uvs)) continue;
@@ -278,7 +279,7 @@ std::optional<AlignedDisk> aligned_disk(const Chart& chart, double sigma, Monito
   std::optional<AlignedDisk> best;
   for (const auto& attempt : attempts) {
     std::optional<AlignedDisk> disk = attempt();
-    if (disk) disk = finished(chart, std::move(*disk), sigma * perimeter);
+    if (disk) disk = finished(chart, std::move(*disk), sigma);
     if (disk && (!best || disk->energy < best->energy)) best = std::move(disk);
     if (best && best->energy < kTooDistorted) return best;
   }

@@ -43,13 +43,30 @@ std::vector<Vec2> filtered(const BoundaryAngles& boundary, const std::vector<dou
   return out;
 }
 
+/// The loop from its vertex farthest from the boundary's centre on: what comes of it depends neither on the order of faces nor on
+/// the turn of the input.
+std::vector<int> from_farthest(const std::vector<Vec2>& uvs, std::vector<int> loop) {
+  const std::size_t n = loop.size();
+  Vec2 sum = Vec2::Zero();
+  double perimeter = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 &a = uvs[loop[i]], &b = uvs[loop[(i + 1) % n]];
+    sum += 0.5 * (b - a).norm() * (a + b);
+    perimeter += (b - a).norm();
+  }
+  const Vec2 centre = sum / perimeter;
+  const auto nearer = [&](int a, int b) { return (uvs[a] - centre).squaredNorm() < (uvs[b] - centre).squaredNorm(); };
+  std::rotate(loop.begin(), std::max_element(loop.begin(), loop.end(), nearer), loop.end());
+  return loop;
+}
+
 }  // namespace
 
 double BoundaryAngles::perimeter() const { return std::accumulate(lengths.begin(), lengths.end(), 0.0); }
 
 BoundaryAngles polar_angles(const Chart& disk) {
   BoundaryAngles out;
-  out.vertices = disk.boundary_loops.front();
+  out.vertices = from_farthest(disk.uvs, disk.boundary_loops.front());
   const int n = out.size();
   std::vector<double> interior(disk.vertex_count(), 0);
   for (const Triangle& t : disk.triangles) {

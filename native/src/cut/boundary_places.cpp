@@ -87,25 +87,29 @@ std::vector<double> places_within(double start, double end, std::vector<double> 
   return known;
 }
 
-void divide_side(SplitMesh& mesh, const std::vector<int>& space_points, int from, int to, const Places& places) {
+/// The vertices that were put on the side.
+std::vector<int> divide_side(SplitMesh& mesh, const std::vector<int>& space_points, int from, int to, const Places& places) {
   const ChartEdges edges{space_points, mesh};
   const auto edge = edges.edge_of(from, to);
-  if (!edge) return;
+  if (!edge) return {};
   const auto found = places.find(*edge);
-  if (found == places.end()) return;
+  if (found == places.end()) return {};
   auto start = edges.along_of(from, *edge);
   const auto end = edges.along_of(to, *edge);
-  if (!start || !end) return;
+  if (!start || !end) return {};
+  std::vector<int> added;
   for (const double along : places_within(*start, *end, found->second)) {
     const double t = (along - *start) / (*end - *start);
     const Vec2 uv = mesh.uvs[from] + t * (mesh.uvs[to] - mesh.uvs[from]);
     from = mesh.split(mesh.find_side(from, to), t, uv);
+    added.push_back(from);
     start = along;
   }
+  return added;
 }
 
 /// Inner sides too: where more than two faces meet at an edge, some join it inside their chart.
-void divide_sides(SplitMesh& mesh, const std::vector<int>& space_points, const Places& places) {
+DividedSides divide_sides(SplitMesh& mesh, const std::vector<int>& space_points, const Places& places) {
   std::vector<std::pair<int, int>> sides;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     for (int k = 0; k < 3; ++k) {
@@ -113,7 +117,20 @@ void divide_sides(SplitMesh& mesh, const std::vector<int>& space_points, const P
       if (mesh.is_boundary(s) || mesh.twin(s).triangle > t) sides.emplace_back(mesh.from(s), mesh.to(s));
     }
   }
-  for (const auto& [from, to] : sides) divide_side(mesh, space_points, from, to, places);
+  DividedSides divided;
+  for (const auto& [from, to] : sides) {
+    std::vector<int> added = divide_side(mesh, space_points, from, to, places);
+    if (!added.empty()) divided[{from, to}] = std::move(added);
+  }
+  return divided;
+}
+
+std::vector<char> boundary_vertices(const SplitMesh& mesh) {
+  std::vector<char> out(mesh.vertex_count(), 0);
+  for (const auto& loop : mesh.boundary_loops()) {
+    for (const Side& s : loop) out[mesh.from(s)] = 1;
+  }
+  return out;
 }
 
 }  // namespace
@@ -131,18 +148,33 @@ std::set<SpaceEdge> borders_in_space(const std::vector<SplitMesh>& meshes, const
   return borders;
 }
 
-void match_boundaries(std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& space_points) {
+std::vector<DividedSides> match_boundaries(std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& space_points) {
   const std::set<SpaceEdge> borders = borders_in_space(meshes, space_points);
   Places places;
   for (std::size_t c = 0; c < meshes.size(); ++c) collect_places(meshes[c], space_points[c], borders, places);
-  for (std::size_t c = 0; c < meshes.size(); ++c) divide_sides(meshes[c], space_points[c], places);
+  std::vector<DividedSides> divided;
+  for (std::size_t c = 0; c < meshes.size(); ++c) divided.push_back(divide_sides(meshes[c], space_points[c], places));
+  return divided;
+}
+
+void follow_divided(const std::vector<DividedSides>& divided, std::vector<SurfacePath>& paths) {
+  for (SurfacePath& path : paths) {
+    const DividedSides& sides = divided[path.piece];
+    std::vector<int> out = {path.vertices.front()};
+    for (std::size_t k = 0; k + 1 < path.vertices.size(); ++k) {
+      const int from = path.vertices[k], to = path.vertices[k + 1];
+      if (const auto ahead = sides.find({from, to}); ahead != sides.end())
+        out.insert(out.end(), ahead->second.begin(), ahead->second.end());
+      if (const auto back = sides.find({to, from}); back != sides.end())
+        out.insert(out.end(), back->second.rbegin(), back->second.rend());
+      out.push_back(to);
+    }
+    path.vertices = std::move(out);
+  }
 }
 
 std::vector<int> PointNumbers::of_chart(int chart, const SplitMesh& mesh) {
-  std::vector<char> on_boundary(mesh.vertex_count(), 0);
-  for (const auto& loop : mesh.boundary_loops()) {
-    for (const Side& s : loop) on_boundary[mesh.from(s)] = 1;
-  }
+  const std::vector<char> on_boundary = boundary_vertices(mesh);
   std::vector<int> numbers(mesh.vertex_count(), -1);
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.supports[v].vertices[1] >= 0) numbers[v] = number(chart, mesh.supports[v], on_boundary[v]);
@@ -150,15 +182,15 @@ std::vector<int> PointNumbers::of_chart(int chart, const SplitMesh& mesh) {
   return numbers;
 }
 
-void PointNumbers::know(int chart, const SplitMesh& mesh, const std::vector<int>& numbers) {
-  for (const auto& loop : mesh.boundary_loops()) {
-    for (const Side& s : loop) {
-      const int v = mesh.from(s);
-      if (v >= static_cast<int>(numbers.size()) || numbers[v] < 0) continue;
-      if (const auto place = place_of(space_points_[chart], mesh.supports[v]))
-        on_edges_[place->edge].emplace_back(place->along, numbers[v]);
-    }
+std::vector<int> PointNumbers::joined(int chart, const SplitMesh& mesh, std::vector<int> numbers) {
+  const std::vector<char> on_boundary = boundary_vertices(mesh);
+  for (std::size_t v = 0; v < numbers.size(); ++v) {
+    if (numbers[v] < 0) continue;
+    int* known = at(chart, mesh.supports[v], on_boundary[v]);
+    if (known && *known < 0) *known = numbers[v];
+    if (known) numbers[v] = *known;
   }
+  return numbers;
 }
 
 std::vector<int> PointNumbers::of_added(int chart, const SplitMesh& mesh, std::vector<int> numbers) {
@@ -168,17 +200,23 @@ std::vector<int> PointNumbers::of_added(int chart, const SplitMesh& mesh, std::v
 }
 
 int PointNumbers::number(int chart, const Support& support, bool on_boundary) {
-  const auto place = place_of(space_points_[chart], support);
+  int* known = at(chart, support, on_boundary);
+  if (known && *known >= 0) return *known;
   const int next = static_cast<int>(points_.size());
-  if (place && (on_boundary || borders_.contains(place->edge))) {
-    auto& known = on_edges_[place->edge];
-    for (const auto& [along, point] : known) {
-      if (std::abs(along - place->along) < kSamePlace) return point;
-    }
-    known.emplace_back(place->along, next);
-  }
+  if (known) *known = next;
   points_.push_back({chart, support});
   return next;
+}
+
+/// The number at that place, -1 where it is still to be given; null where a place has no number of its own.
+int* PointNumbers::at(int chart, const Support& support, bool on_boundary) {
+  const auto place = place_of(space_points_[chart], support);
+  if (!place || !(on_boundary || borders_.contains(place->edge))) return nullptr;
+  auto& known = on_edges_[place->edge];
+  for (auto& [along, point] : known) {
+    if (std::abs(along - place->along) < kSamePlace) return &point;
+  }
+  return &known.emplace_back(place->along, -1).second;
 }
 
 }  // namespace atlas_refine

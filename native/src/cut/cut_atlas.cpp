@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "atlas_refine/error.h"
 #include "cut/boundary_places.h"
 
 namespace atlas_refine {
@@ -181,8 +182,10 @@ CutAtlas cut_along(const CutAtlas& atlas, const std::vector<Chart>& sources, std
     SplitMesh mesh = mesh_of(piece);
     std::vector<Side> sides;
     for (const SurfacePath* path : own[p]) {
-      for (std::size_t k = 0; k + 1 < path->vertices.size(); ++k)
+      for (std::size_t k = 0; k + 1 < path->vertices.size(); ++k) {
         sides.push_back(mesh.find_side(path->vertices[k], path->vertices[k + 1]));
+        if (sides.back().triangle < 0) throw RefineError(ErrorCode::NotCertified, "cut", "a cut leaves the edges of its chart");
+      }
     }
     for (const Side& s : sides) out.seams.push_back(seam_of(piece, mesh.from(s), mesh.to(s)));
     std::vector<int> points = piece.points;

@@ -10,6 +10,7 @@ namespace atlas_refine {
 namespace {
 
 constexpr double kHot = 0.02, kCold = 2e-4;  // accepted growth of the box's area, relative, at first and at last
+constexpr double kTie = 1e-9;                // of the area: the same packing but for rounding
 
 /// a lies left of b where a comes before b in both sequences, below b where it comes later in the first and earlier in the
 /// second.
@@ -159,7 +160,7 @@ RectanglePacking anneal_packing(const std::vector<Vec2>& sizes, double padding, 
     if (trial_area > limit) continue;
     area = trial_area;
     std::swap(present, trial);
-    if (area >= best_area) continue;
+    if (area >= best_area * (1 - kTie)) continue;
     best_area = area;
     best = {compaction.positions, present.turned, compaction.box};
   }

@@ -41,6 +41,10 @@ struct Candidate {
   Score score;
 };
 
+/// Scores that differ by rounding are one: the layout must not depend on the order or the turn of the input.
+double told(const Score& score) { return std::round(1e9 * score.value); }
+bool is_better(const Candidate& a, const Candidate& b) { return told(a.score) > told(b.score); }
+
 /// What the candidates of one round have in common.
 struct Round {
   int number;  // for its random choices
@@ -180,7 +184,7 @@ class Chain {
       const double heat = kHot * (1 - static_cast<double>(k) / steps);
       if (trial.score.value < present.score.value + heat * std::log(1 - rng_.uniform())) continue;
       present = std::move(trial);
-      if (present.score.value > best.score.value) best = present;
+      if (is_better(present, best)) best = present;
     }
     return best;
   }
@@ -226,7 +230,7 @@ std::vector<Candidate> run_chains(const Round& round, const LayoutOptions& optio
     }
   });
   std::stable_sort(best.begin(), best.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.score.value > b.score.value; });
+                   [](const Candidate& a, const Candidate& b) { return told(a.score) > told(b.score); });
   best.resize(std::min<std::size_t>(best.size(), kFinalists));
   parallel_ranges(static_cast<int>(best.size()), options.threads, 1, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) pack_well(best[k], round, options, padding, 10 + k);
@@ -256,7 +260,7 @@ Layout search_round(const Round& round, const LayoutOptions& options, Monitor& m
   std::vector<Candidate> finalists = run_chains(round, options, padding, monitor);
   Candidate best = std::move(finalists.front());
   for (Candidate& candidate : finalists) {
-    if (candidate.score.value > best.score.value) best = std::move(candidate);
+    if (is_better(candidate, best)) best = std::move(candidate);
   }
   // A larger gap makes a larger box: what was packed for another box is packed again.
   for (int k = 0; k < 4 && padding < padding_of(round.gap, best.packing.box); ++k) {
