@@ -143,8 +143,7 @@ Json to_json(const Repair& repair) {
   return {{"what", repair.what},
           {"charts", repair.charts},
           {"faces", repair.faces},
-          {"distortion_to_input", number(repair.distortion_to_input)},
-          {"text", describe(repair)}};
+          {"distortion_to_input", number(repair.distortion_to_input)}};
 }
 
 Json to_json(const GroupReport& group) {
@@ -267,7 +266,9 @@ std::string gap_text(double gap) { return std::isfinite(gap) ? print("%.5f of th
 }  // namespace
 
 std::string json_report(const CommandLine& line, const std::vector<FileReport>& files, const RefineResult& result,
-                        const Times& times) {
+                        const Times& times, const RepairWords& words) {
+  Json repairs = list_of(result.repairs);
+  for (std::size_t k = 0; k < repairs.size(); ++k) repairs[k]["text"] = words(result.repairs[k]);
   Json file_list = Json::array();
   for (const FileReport& file : files) file_list.push_back(to_json(file));
   Json stages = Json::array();
@@ -294,14 +295,15 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
                {"rectangles", result.rectangles ? to_json(*result.rectangles) : Json(nullptr)},
                {"cuts", result.cuts ? to_json(*result.cuts) : Json(nullptr)},
                {"groups", list_of(result.groups)},
-               {"repairs", list_of(result.repairs)},
+               {"repairs", repairs},
                {"fallbacks", result.fallbacks},
                {"warnings", result.warnings},
                {"timings", stages},
                {"seconds", {{"read", times.read}, {"refine", times.refine}, {"write", times.write}}}});
 }
 
-std::string summary(const std::vector<FileReport>& files, const RefineResult& result, const Times& times) {
+std::string summary(const std::vector<FileReport>& files, const RefineResult& result, const Times& times,
+                    const RepairWords& words) {
   const Measures& before = result.before;
   const Measures& after = result.after;
   std::string text = std::string(to_string(result.intervention)) + (result.bound_met ? "" : ", bound not met") + ": " +
@@ -321,7 +323,7 @@ std::string summary(const std::vector<FileReport>& files, const RefineResult& re
             print(": %d charts, PE %.4f -> %.4f, E_d %.4f, ", group.charts, group.before.pe_fixed_aspect,
                   group.after.pe_fixed_aspect, group.after.distortion) +
             to_string(group.intervention) + "\n";
-  for (const Repair& repair : result.repairs) text += "  repair: " + describe(repair) + "\n";
+  for (const Repair& repair : result.repairs) text += "  repair: " + words(repair) + "\n";
   for (const std::string& fallback : result.fallbacks) text += "  fallback: " + fallback + "\n";
   for (const std::string& warning : result.warnings) text += "  warning: " + warning + "\n";
   return text;
