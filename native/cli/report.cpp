@@ -260,6 +260,9 @@ std::string cut_lines(const std::vector<FileReport>& files, const RefineResult& 
   return text + "\n";
 }
 
+/// A number, "-" of nothing: where no chart takes part.
+std::string figure(const char* format, double value) { return std::isnan(value) ? "-" : print(format, value); }
+
 /// A distance as fraction of the box diagonal, or "none" where there is nothing to be apart from.
 std::string gap_text(double gap) { return std::isfinite(gap) ? print("%.5f of the diagonal", gap) : "none"; }
 
@@ -312,9 +315,9 @@ std::string summary(const std::vector<FileReport>& files, const RefineResult& re
   text += print("  PE           %.4f -> %.4f\n", before.pe_fixed_aspect, after.pe_fixed_aspect);
   text += print("  box          %.3f x %.3f, %.1f %% of the unit square\n", after.box_width, after.box_height,
                 100 * after.unit_square_share);
-  text += print("  E_d          %.4f -> %.4f\n", before.distortion, after.distortion);
-  text += print("  stretch 99%%  %.3f -> %.3f, largest %.3f -> %.3f\n", before.stretch_99, after.stretch_99, before.stretch_max,
-                after.stretch_max);
+  text += "  E_d          " + figure("%.4f", before.distortion) + " -> " + figure("%.4f", after.distortion) + "\n";
+  text += "  stretch 99%  " + figure("%.3f", before.stretch_99) + " -> " + figure("%.3f", after.stretch_99) + ", largest " +
+          figure("%.3f", before.stretch_max) + " -> " + figure("%.3f", after.stretch_max) + "\n";
   text += print("  added seams  %d\n", result.added_seams);
   text += cut_lines(files, result);
   text += "  gap          " + gap_text(after.gap_between) + "\n";
