@@ -1,11 +1,14 @@
 // Who takes part: charts without UV area, faces without UVs, stacks, groups, tiles; what stays keeps its bits.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <set>
 
+#include "atlas_refine/inspect.h"
 #include "atlas_refine/refine.h"
+#include "output_atlas.h"
 #include "shapes.h"
 #include "small_atlases.h"
 
@@ -83,6 +86,22 @@ TEST(Parts, WhereAllIsCollapsedNothingChangesAndAWarningSaysSo) {
   EXPECT_EQ(result.intervention, Intervention::Unchanged);
   EXPECT_TRUE(kept_bits(atlas, result, 0, atlas.corner_count()));
   EXPECT_TRUE(says(result.warnings, "no chart takes part"));
+  EXPECT_TRUE(std::isnan(result.before.distortion) && std::isnan(result.after.distortion)) << "E_d of nothing is none";
+}
+
+TEST(Parts, AVertexThatWasLostFarAwayDoesNotMakeALineOfTheRest) {
+  for (const double far : {1e3, 1e5, 1e7, 1e9}) {
+    Atlas atlas = shapes::quad_grid(10, 10);
+    const Vec2 lost = atlas.corner_uvs[4 * 55];
+    for (Vec2& uv : atlas.corner_uvs) {
+      if (uv == lost) uv.x() = far;
+    }
+    const RefineResult result = refine(atlas, {.pe_bound = 0.7});
+    EXPECT_EQ(result.charts[0].fate, Fate::Refined) << far;
+    EXPECT_GE(result.after.pe, 0.7) << far;
+    EXPECT_LT(result.after.distortion, 1.01) << far;
+    EXPECT_TRUE(validate(testing::output(atlas, result)).valid()) << far;
+  }
 }
 
 TEST(Parts, FacesWithoutFiniteUVsKeepTheirBitsOutsideTheAtlas) {

@@ -27,6 +27,8 @@ def use(measures, is_free, reaches_beyond):
 
 def distortion(measures):
     value = measures.distortion
+    if value != value:
+        return "no chart takes part"
     word = "low" if value <= LOW else "moderate" if value <= MODERATE else "high"
     return f"distortion {word} (worst stretch {measures.stretch_max:.1f})"
 
@@ -85,8 +87,8 @@ def figures(result, face_count):
     before, after = result.before, result.after
     return [
         ("PE", f"{before.pe_fixed_aspect:.3f}", f"{after.pe_fixed_aspect:.3f}"),
-        ("E_d", f"{before.distortion:.4f}", f"{after.distortion:.4f}"),
-        ("Stretch", f"{before.stretch_99:.3f}", f"{after.stretch_99:.3f}"),
+        ("E_d", *(_figure(m.distortion, 4) for m in (before, after))),
+        ("Stretch", *(_figure(m.stretch_99, 3) for m in (before, after))),
         ("Gap", _percent_of_diagonal(before.gap_between), _percent_of_diagonal(after.gap_between)),
         ("Charts", str(before.chart_count), str(after.chart_count)),
         ("Seams", str(before.seam_edges), str(after.seam_edges)),
@@ -105,6 +107,11 @@ def notes(result):
         faces = f" ({counted(len(repair.faces), 'face')})" if len(repair.faces) else ""
         yield f"{counted(len(repair.charts), 'chart')}: {repair.what}{faces}"
     yield from (plain(text) for text in (*result.fallbacks, *result.warnings))
+
+
+def _figure(value, decimals):
+    """NaN is of nothing: no chart takes part."""
+    return "-" if value != value else f"{value:.{decimals}f}"
 
 
 def _percent_of_diagonal(fraction):

@@ -120,6 +120,15 @@ std::string Collection::words_in_file(std::string words, int face) const {
   return words;
 }
 
+std::string Collection::words_for_face(int face) const {
+  const File& file = file_of_face(face);
+  const int own = face - file.first_face;
+  const io::FaceLabels& objects = file.mesh->objects();
+  const std::string object = objects.of_face.empty() ? "" : objects.names[objects.of_face[own]];
+  return (files_.size() > 1 ? file.path.string() + ": " : "") + "face " + std::to_string(file.mesh->face_number(own)) +
+         (object.empty() ? "" : " of " + io::quoted(object)) + ", " + file.mesh->where(own);
+}
+
 Collection::Output Collection::output(int k, const RefineResult& result) const {
   const File& file = files_[k];
   const Part mine = part(file, result);

@@ -46,6 +46,10 @@ class Collection {
   /// The library's words about that face, with that number.
   std::string words_in_file(std::string words, int face) const;
 
+  /// "FILE: face 55 of 'Head', line 402", as messages say where a face of atlas() is; FILE only of several, a name where it has
+  /// one.
+  std::string words_for_face(int face) const;
+
   /// "FILE" or, where the face (of atlas()) is known, "FILE: line N"; without a face the first file stands for all.
   std::string place_of_face(int face) const;
 

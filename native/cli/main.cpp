@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "atlas_refine/refine.h"
+#include "chart_words.h"
 #include "collection.h"
 #include "command_line.h"
 #include "interrupt.h"
@@ -162,6 +163,10 @@ void add_trade_off(const CommandLine& line, const RefineResult& result, const st
   pending.emplace_back(line.trade_off_picture(), trade_off_svg(pe, cuts.trade_off, packing, cuts.chosen));
 }
 
+RepairWords words_of(const Collection& files, const RefineResult& result) {
+  return [&](const Repair& repair) { return repair_words(repair, result, files); };
+}
+
 /// The results and the report appear together, or none does.
 std::vector<FileReport> write_outputs(const CommandLine& line, const Collection& files, const RefineResult& result,
                                       const std::vector<PackingPoint>& packing, Times& times) {
@@ -178,7 +183,7 @@ std::vector<FileReport> write_outputs(const CommandLine& line, const Collection&
                        static_cast<int>(files.atlas_of(k).positions.size()), output.added_vertices});
   }
   times.write = seconds_since(start);
-  if (line.report) pending.emplace_back(*line.report, json_report(line, reports, result, times));
+  if (line.report) pending.emplace_back(*line.report, json_report(line, reports, result, times, words_of(files, result)));
   if (line.trade_off) add_trade_off(line, result, packing, pending);
   if (interrupted()) throw RefineError(ErrorCode::Cancelled, "write", "cancelled");
   commit_together(pending);
@@ -220,6 +225,8 @@ int run_refine(CommandLine line) {
     std::vector<PackingPoint> packing;
     if (line.trade_off) packing = packing_curve(files.atlas(), line.options);
     times.refine = seconds_since(start);
+    for (std::string& warning : result.warnings) warning = with_place(warning, result, files);
+    for (std::string& fallback : result.fallbacks) fallback = with_place(fallback, result, files);
     const std::vector<std::string> notes = files.notes();
     result.warnings.insert(result.warnings.begin(), notes.begin(), notes.end());
     if (result.intervention != Intervention::Unchanged) {
@@ -227,7 +234,7 @@ int run_refine(CommandLine line) {
       result.warnings.insert(result.warnings.end(), shared.begin(), shared.end());
     }
     const std::vector<FileReport> reports = write_outputs(line, files, result, packing, times);
-    std::fputs(summary(reports, result, times).c_str(), stdout);
+    std::fputs(summary(reports, result, times, words_of(files, result)).c_str(), stdout);
     return complain_of_groups(files, result);
   } catch (const RefineError& error) {
     return complain(error, files);

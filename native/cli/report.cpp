@@ -143,8 +143,7 @@ Json to_json(const Repair& repair) {
   return {{"what", repair.what},
           {"charts", repair.charts},
           {"faces", repair.faces},
-          {"distortion_to_input", number(repair.distortion_to_input)},
-          {"text", describe(repair)}};
+          {"distortion_to_input", number(repair.distortion_to_input)}};
 }
 
 Json to_json(const GroupReport& group) {
@@ -261,13 +260,18 @@ std::string cut_lines(const std::vector<FileReport>& files, const RefineResult& 
   return text + "\n";
 }
 
+/// A number, "-" of nothing: where no chart takes part.
+std::string figure(const char* format, double value) { return std::isnan(value) ? "-" : print(format, value); }
+
 /// A distance as fraction of the box diagonal, or "none" where there is nothing to be apart from.
 std::string gap_text(double gap) { return std::isfinite(gap) ? print("%.5f of the diagonal", gap) : "none"; }
 
 }  // namespace
 
 std::string json_report(const CommandLine& line, const std::vector<FileReport>& files, const RefineResult& result,
-                        const Times& times) {
+                        const Times& times, const RepairWords& words) {
+  Json repairs = list_of(result.repairs);
+  for (std::size_t k = 0; k < repairs.size(); ++k) repairs[k]["text"] = words(result.repairs[k]);
   Json file_list = Json::array();
   for (const FileReport& file : files) file_list.push_back(to_json(file));
   Json stages = Json::array();
@@ -294,14 +298,15 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
                {"rectangles", result.rectangles ? to_json(*result.rectangles) : Json(nullptr)},
                {"cuts", result.cuts ? to_json(*result.cuts) : Json(nullptr)},
                {"groups", list_of(result.groups)},
-               {"repairs", list_of(result.repairs)},
+               {"repairs", repairs},
                {"fallbacks", result.fallbacks},
                {"warnings", result.warnings},
                {"timings", stages},
                {"seconds", {{"read", times.read}, {"refine", times.refine}, {"write", times.write}}}});
 }
 
-std::string summary(const std::vector<FileReport>& files, const RefineResult& result, const Times& times) {
+std::string summary(const std::vector<FileReport>& files, const RefineResult& result, const Times& times,
+                    const RepairWords& words) {
   const Measures& before = result.before;
   const Measures& after = result.after;
   std::string text = std::string(to_string(result.intervention)) + (result.bound_met ? "" : ", bound not met") + ": " +
@@ -310,9 +315,9 @@ std::string summary(const std::vector<FileReport>& files, const RefineResult& re
   text += print("  PE           %.4f -> %.4f\n", before.pe_fixed_aspect, after.pe_fixed_aspect);
   text += print("  box          %.3f x %.3f, %.1f %% of the unit square\n", after.box_width, after.box_height,
                 100 * after.unit_square_share);
-  text += print("  E_d          %.4f -> %.4f\n", before.distortion, after.distortion);
-  text += print("  stretch 99%%  %.3f -> %.3f, largest %.3f -> %.3f\n", before.stretch_99, after.stretch_99, before.stretch_max,
-                after.stretch_max);
+  text += "  E_d          " + figure("%.4f", before.distortion) + " -> " + figure("%.4f", after.distortion) + "\n";
+  text += "  stretch 99%  " + figure("%.3f", before.stretch_99) + " -> " + figure("%.3f", after.stretch_99) + ", largest " +
+          figure("%.3f", before.stretch_max) + " -> " + figure("%.3f", after.stretch_max) + "\n";
   text += print("  added seams  %d\n", result.added_seams);
   text += cut_lines(files, result);
   text += "  gap          " + gap_text(after.gap_between) + "\n";
@@ -321,7 +326,7 @@ std::string summary(const std::vector<FileReport>& files, const RefineResult& re
             print(": %d charts, PE %.4f -> %.4f, E_d %.4f, ", group.charts, group.before.pe_fixed_aspect,
                   group.after.pe_fixed_aspect, group.after.distortion) +
             to_string(group.intervention) + "\n";
-  for (const Repair& repair : result.repairs) text += "  repair: " + describe(repair) + "\n";
+  for (const Repair& repair : result.repairs) text += "  repair: " + words(repair) + "\n";
   for (const std::string& fallback : result.fallbacks) text += "  fallback: " + fallback + "\n";
   for (const std::string& warning : result.warnings) text += "  warning: " + warning + "\n";
   return text;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,12 +28,16 @@ struct FileReport {
   int added_vertices = 0;
 };
 
+/// What is said of a repair.
+using RepairWords = std::function<std::string(const Repair&)>;
+
 /// Everything about a run, for programs. Infinite values become null.
 std::string json_report(const CommandLine& line, const std::vector<FileReport>& files, const RefineResult& result,
-                        const Times& times);
+                        const Times& times, const RepairWords& words = describe);
 
 /// A few lines about a run, for people.
-std::string summary(const std::vector<FileReport>& files, const RefineResult& result, const Times& times);
+std::string summary(const std::vector<FileReport>& files, const RefineResult& result, const Times& times,
+                    const RepairWords& words = describe);
 
 /// `notes` say what of the file is not in the atlas.
 std::string measures_json(const std::string& input, const Measures& measures, const Validity& validity,

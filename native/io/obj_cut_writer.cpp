@@ -8,6 +8,13 @@
 
 namespace atlas_refine::io {
 
+namespace {
+
+/// Of `count` records that all stand before it: what is before the first stays so.
+int written(int record, int count) { return record < 0 ? record - count : record + 1; }
+
+}  // namespace
+
 ObjCutWriter::ObjCutWriter(const ObjText& file, const CutMesh& cut, const std::vector<Vec2>& corner_uvs)
     : file_(file), cut_(cut), atlas_(file.atlas) {
   if (const std::size_t end = file.text.find_first_of("\r\n"); end != std::string::npos)
@@ -106,12 +113,23 @@ std::vector<ObjCutWriter::Edit> ObjCutWriter::edits() const {
   for (int face = 0; face < atlas_.face_count(); ++face)
     result.push_back({file_.face_records[face].whole, Edit::Kind::Face, face});
   for (const auto& reference : file_.element_references)
-    result.push_back({reference.text, Edit::Kind::ElementIndex, reference.record});
+    result.push_back({reference.text, Edit::Kind::Index, written_index(reference)});
   for (const auto& reference : file_.uv_references) {
-    if (reference.corner < 0) result.push_back({reference.text, Edit::Kind::UvIndex, uvs_.first[reference.record]});
+    const auto count = static_cast<int>(uvs_.values.size());
+    if (reference.corner < 0)
+      result.push_back({reference.text, Edit::Kind::Index, written(first_value_of(uvs_, reference.record), count)});
   }
   std::sort(result.begin(), result.end(), [](const Edit& a, const Edit& b) { return a.span.begin < b.span.begin; });
   return result;
+}
+
+// What the file does not have is not there in the output either: new records are counted in.
+int ObjCutWriter::written_index(const ObjText::ElementReference& reference) const {
+  const bool is_position = reference.kind == ObjText::ElementReference::Kind::Position;
+  const std::size_t old = is_position ? file_.position_records.size() : file_.normal_records.size();
+  const std::size_t added = is_position ? cut_.new_vertices.size() : new_normals_.size();
+  const bool is_behind = reference.record >= static_cast<int>(old);
+  return written(reference.record + (is_behind ? static_cast<int>(added) : 0), static_cast<int>(old + added));
 }
 
 void ObjCutWriter::write(const Edit& edit) {
@@ -125,9 +143,8 @@ void ObjCutWriter::write(const Edit& edit) {
       if (edit.index == 0) write_moved_records();
       write_face(edit.index);
       break;
-    case Edit::Kind::ElementIndex:
-    case Edit::Kind::UvIndex:
-      out_ += std::to_string(edit.index + 1);
+    case Edit::Kind::Index:
+      out_ += std::to_string(edit.index);
       break;
   }
 }

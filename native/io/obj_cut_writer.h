@@ -23,8 +23,8 @@ class ObjCutWriter {
   /// A stretch of the file's text that the output has something else for.
   struct Edit {
     Span span;
-    enum class Kind { Drop, UvRecord, Face, ElementIndex, UvIndex } kind;
-    int index = -1;
+    enum class Kind { Drop, UvRecord, Face, Index } kind;
+    int index = -1;  ///< of a record of the file, a face; with Index as it is written
   };
 
   void find_parts();
@@ -34,6 +34,7 @@ class ObjCutWriter {
   bool is_new(int corner) const { return cut_.corner_vertices[corner] >= static_cast<int>(atlas_.positions.size()); }
 
   std::vector<Edit> edits() const;
+  int written_index(const ObjText::ElementReference& reference) const;
   void write(const Edit& edit);
   void write_moved_records();
   void write_new_positions();

@@ -14,8 +14,8 @@ namespace {
 
 // A corner that is named several times in a row may have come from several records, each of which has its value.
 int record_of(const ObjText::UvReference& reference, const UvRecords& records) {
+  if (reference.corner < 0) return first_value_of(records, reference.record);
   const int first = records.first[reference.record], last = records.first[reference.record + 1];
-  if (reference.corner < 0) return first;
   const int known = records.of_corner[reference.corner];
   if (known >= first && known < last) return known;
   const auto begin = records.values.begin();
@@ -53,6 +53,11 @@ std::vector<std::string> ObjFile::notes() const {
   note(text_.left_out_degenerate, "has fewer than three different vertices and is left out",
        "have fewer than three different vertices and are left out");
   note(text_.left_out_without_uvs, "has corners without UVs and is left out", "have corners without UVs and are left out");
+  note(text_.left_out_out_of_range, "names a vertex or UV that the file does not have and is left out",
+       "name a vertex or UV that the file does not have and are left out");
+  note(text_.left_out_infinite_position, "has a vertex whose position is not finite and is left out",
+       "have a vertex whose position is not finite and are left out");
+  note(text_.without_normals, "names a normal that the file does not have", "name a normal that the file does not have");
   note(text_.left_out_infinite, "has a UV that is not finite and is left out", "have a UV that is not finite and are left out");
   note(text_.left_out_revisiting, "comes to a vertex twice and is left out", "come to a vertex twice and are left out");
   return notes;

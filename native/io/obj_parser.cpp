@@ -6,12 +6,15 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <map>
+#include <optional>
 #include <utility>
 
 #include "atlas_refine/error.h"
 #include "io/input_file.h"
+#include "io/keyhole.h"
+#include "io/label_reader.h"
 #include "io/obj_scanner.h"
+#include "io/read_number.h"
 
 namespace atlas_refine::io {
 
@@ -19,70 +22,34 @@ namespace {
 
 using Span = ObjText::Span;
 
-/// The name that holds from a record on, until the next.
-class LabelReader {
- public:
-  void set(std::string name) { name_ = std::move(name); }
-  void label_face() {
-    if (!labels_.of_face.empty() && labels_.names[labels_.of_face.back()] == name_) {
-      labels_.of_face.push_back(labels_.of_face.back());
-      return;
-    }
-    const auto [at, added] = numbers_.emplace(name_, static_cast<int>(labels_.names.size()));
-    if (added) labels_.names.push_back(name_);
-    labels_.of_face.push_back(at->second);
-  }
-  FaceLabels take() { return std::move(labels_); }
+constexpr int kNotGiven = std::numeric_limits<int>::min();
+constexpr int kNowhere = 1 << 30;  // what stands for an index that no file can hold: 0, or a larger one
 
- private:
-  std::string name_;
-  FaceLabels labels_;
-  std::unordered_map<std::string, int> numbers_;
+/// Why a face cannot be in the atlas that names what the file does not have, or what is not finite.
+struct Fault {
+  ObjText::Remark ObjText::*kind;
+  std::string what;  // with the line
 };
-
-/// Whether a polygon that comes to some vertices several times is loops of different vertices, three or more in each, joined by
-/// edges that it runs along to and fro: the way in which outlines with holes are written as one polygon.
-bool is_keyhole(std::vector<int> polygon) {
-  std::vector<std::vector<int>> open = {std::move(polygon)};
-  std::vector<int> seen;
-  while (!open.empty()) {
-    const std::vector<int> loop = std::move(open.back());
-    open.pop_back();
-    const auto n = static_cast<int>(loop.size());
-    std::map<std::pair<int, int>, int> edges;  // by their ends, where they start
-    bool parted = false;
-    for (int i = 0; i < n && !parted; ++i) {
-      const int from = loop[i], to = loop[(i + 1) % n];
-      if (const auto back = edges.find({to, from}); back != edges.end()) {
-        // ... from=b a=to ... : what lies between the two ways, and the rest.
-        const int j = back->second;
-        open.emplace_back(loop.begin() + j + 1, loop.begin() + i);
-        std::vector<int>& rest = open.emplace_back(loop.begin() + i + 1, loop.end());
-        rest.insert(rest.end(), loop.begin(), loop.begin() + j);
-        parted = true;
-      }
-      edges[{from, to}] = i;
-    }
-    if (parted) continue;
-    if (n < 3) return false;
-    seen.insert(seen.end(), loop.begin(), loop.end());
-  }
-  std::sort(seen.begin(), seen.end());
-  return std::adjacent_find(seen.begin(), seen.end()) == seen.end();
-}
+/// By the numbers of the faces.
+using Faults = std::unordered_map<int, Fault>;
 
 /// One pass, the places of everything that may be rewritten remembered.
 class ObjParser {
  public:
-  explicit ObjParser(ObjText obj) : obj_(std::move(obj)), scanner_(obj_.text) {}
-  ObjText run() &&;
+  /// `known` are faults of faces that come before what they name.
+  ObjParser(std::string text, const Faults& known) : known_(known), obj_{.text = std::move(text)}, scanner_(obj_.text) {}
+  /// Reads all. Returns the faults of faces that only what follows them shows: with these known it has to be read anew.
+  Faults read();
+  ObjText take() &&;
+  std::string take_text() && { return std::move(obj_.text); }
 
  private:
-  /// One corner of a face or one point of a line element, v, v/vt, v//vn or v/vt/vn; 0-based, -1 where not given.
+  /// One corner of a face or one point of a line element, v, v/vt, v//vn or v/vt/vn; 0-based and, where the index is relative,
+  /// below 0 where it reaches back before the first record.
   struct Corner {
-    int vertex = -1;
-    int uv = -1;
-    int normal = -1;
+    int vertex = kNotGiven;
+    int uv = kNotGiven;
+    int normal = kNotGiven;
     Span vertex_text;
     Span uv_text;
     Span normal_text;
@@ -96,38 +63,45 @@ class ObjParser {
   void read_line_element();
   void read_point_element();
   void read_label(std::string_view keyword);
-  ObjText::Remark* reason_to_leave_out();
+  ObjText::Remark* reason_to_leave_out(const ObjText::FaceRecord& record);
+  std::optional<Fault> fault_of(const ObjText::FaceRecord& record) const;
   void add_face();
   void add_corner(const Corner& corner);
   void add_element(const Corner& corner);
-  bool is_infinite(int uv) const;
-  [[noreturn]] void refuse_infinite_uv() const;
-  void check_indices() const;
-  void check_vertices(int face) const;
-  void check_uv(const ObjText::UvReference& reference) const;
+  bool is_infinite_uv(int uv) const;
+  bool is_infinite_position(int vertex) const;
+  std::optional<Fault> fault_of_vertex(const ObjText::FaceRecord& record, int vertex) const;
+  std::optional<Fault> fault_of_uv(const ObjText::FaceRecord& record, int uv) const;
+  Faults late_faults() const;
+  void drop_missing_normals();
+  void refuse_without_faces() const;
 
   Corner corner(Span token) const;
   int index(std::string_view text, Span token, std::size_t count) const;
   double number(Span token) const;
-  double finite_number(const char* what);
+  double position_number(std::string_view& not_finite);
 
+  const Faults& known_;
   ObjText obj_;
   ObjScanner scanner_;
-  int highest_normal_ = -1;
-  int line_of_highest_normal_ = 0;
-  int first_infinite_uv_ = -1;
-  int line_of_infinite_uv_ = 0;
+  std::vector<int> infinite_positions_, infinite_uvs_;  // in ascending order
+  std::string first_infinite_position_, first_infinite_uv_, first_fault_;
   std::vector<Corner> corners_;  // of the present face
   std::vector<int> kept_;        // those of them that do not repeat the one before
   std::vector<int> sorted_;      // their vertices
   LabelReader materials_, objects_, groups_;
 };
 
-ObjText ObjParser::run() && {
+Faults ObjParser::read() {
   obj_.atlas.face_offsets = {0};
   if (obj_.text.empty()) throw RefineError(ErrorCode::BadInput, "read", "is empty");
   while (!scanner_.at_end()) read_record();
-  check_indices();
+  return late_faults();
+}
+
+ObjText ObjParser::take() && {
+  refuse_without_faces();
+  drop_missing_normals();
   obj_.materials = materials_.take();
   FaceLabels objects = objects_.take();
   const bool unnamed = objects.names.size() == 1 && objects.names.front().empty();
@@ -173,16 +147,23 @@ void ObjParser::read_position(std::size_t record_begin) {
   ObjText::PositionRecord record;
   const int line = scanner_.line();
   record.first_extra = static_cast<int>(obj_.extras.size());
-  const double x = finite_number("vertex position");
-  const double y = finite_number("vertex position");
-  const double z = finite_number("vertex position");
+  std::string_view not_finite;
+  const double x = position_number(not_finite);
+  const double y = position_number(not_finite);
+  const double z = position_number(not_finite);
   obj_.atlas.positions.emplace_back(x, y, z);
   for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token())
     obj_.extras.push_back(number(token));
   scanner_.skip_logical_line();
   record.extra_count = static_cast<int>(obj_.extras.size()) - record.first_extra;
   if (record.extra_count == 1 && obj_.extras.back() != 0) obj_.atlas.positions.back() /= obj_.extras.back();
-  if (!obj_.atlas.positions.back().allFinite()) scanner_.fail_at(line, "a vertex position that its w makes infinite");
+  if (!obj_.atlas.positions.back().allFinite()) {
+    const std::string what = not_finite.empty() ? "a vertex position that its w makes infinite"
+                                                : "a vertex position that is not finite: " + quoted(not_finite);
+    if (infinite_positions_.empty()) first_infinite_position_ = "line " + std::to_string(line) + ": " + what;
+    infinite_positions_.push_back(static_cast<int>(obj_.position_records.size()));
+    obj_.atlas.positions.back().setZero();  // no face of the atlas has it
+  }
   record.whole = {record_begin, scanner_.record_end()};
   obj_.position_records.push_back(record);
 }
@@ -194,15 +175,16 @@ void ObjParser::read_uv(std::size_t record_begin) {
   record.v = scanner_.next_token();
   const bool has_v = record.v.begin != record.v.end;
   if (!has_v) record.v = {record.u.end, record.u.end};
-  Vec2 uv(number(record.u), has_v ? number(record.v) : 0);
-  if (!uv.allFinite() && first_infinite_uv_ < 0) {
-    first_infinite_uv_ = static_cast<int>(obj_.uv_records.size());
-    line_of_infinite_uv_ = scanner_.line();
+  record.value = Vec2(number(record.u), has_v ? number(record.v) : 0);
+  if (!record.value.allFinite()) {
+    if (infinite_uvs_.empty())
+      first_infinite_uv_ = "line " + std::to_string(scanner_.line()) +
+                           ": a UV that is not finite: " + quoted(obj_.view({record.u.begin, record.v.end}));
+    infinite_uvs_.push_back(static_cast<int>(obj_.uv_records.size()));
   }
   for (Span token = scanner_.next_token(); token.begin != token.end; token = scanner_.next_token()) number(token);  // w
   scanner_.skip_logical_line();
   record.whole = {record_begin, scanner_.record_end()};
-  record.value = uv;
   obj_.uv_records.push_back(record);
 }
 
@@ -229,7 +211,7 @@ void ObjParser::read_face(std::size_t record_begin) {
   scanner_.skip_logical_line();
   record.tail.end = scanner_.record_end();
   record.whole = {record_begin, scanner_.record_end()};
-  if (ObjText::Remark* reason = reason_to_leave_out()) {
+  if (ObjText::Remark* reason = reason_to_leave_out(record)) {
     reason->add(record.line);
     for (const Corner& corner : corners_) add_element(corner);
     return;
@@ -241,7 +223,7 @@ void ObjParser::read_face(std::size_t record_begin) {
 }
 
 // Null where the face is in the atlas.
-ObjText::Remark* ObjParser::reason_to_leave_out() {
+ObjText::Remark* ObjParser::reason_to_leave_out(const ObjText::FaceRecord& record) {
   kept_.clear();
   for (int k = 0; k < static_cast<int>(corners_.size()); ++k) {
     if (kept_.empty() || corners_[kept_.back()].vertex != corners_[k].vertex) kept_.push_back(k);
@@ -252,22 +234,55 @@ ObjText::Remark* ObjParser::reason_to_leave_out() {
   std::sort(sorted_.begin(), sorted_.end());
   const auto distinct = std::unique(sorted_.begin(), sorted_.end()) - sorted_.begin();
   if (distinct < 3) return &obj_.left_out_degenerate;
-  if (std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.uv < 0; })) return &obj_.left_out_without_uvs;
-  if (std::any_of(corners_.begin(), corners_.end(), [&](const Corner& c) { return is_infinite(c.uv); }))
-    return &obj_.left_out_infinite;
+  if (std::any_of(corners_.begin(), corners_.end(), [](const Corner& c) { return c.uv == kNotGiven; }))
+    return &obj_.left_out_without_uvs;
+  if (const std::optional<Fault> fault = fault_of(record)) {
+    if (first_fault_.empty()) first_fault_ = fault->what;
+    return &(obj_.*fault->kind);
+  }
   if (distinct == static_cast<std::ptrdiff_t>(kept_.size())) return nullptr;
   std::vector<int> vertices;
   for (int k : kept_) vertices.push_back(corners_[k].vertex);
   return is_keyhole(std::move(vertices)) ? nullptr : &obj_.left_out_revisiting;
 }
 
-bool ObjParser::is_infinite(int uv) const {
-  return first_infinite_uv_ >= 0 && uv < static_cast<int>(obj_.uv_records.size()) && !obj_.uv_records[uv].value.allFinite();
+// Positive indices may name records that follow: what they come to shows at the end, see late_faults().
+std::optional<Fault> ObjParser::fault_of(const ObjText::FaceRecord& record) const {
+  if (const auto known = known_.find(record.number); known != known_.end()) return known->second;
+  for (const Corner& corner : corners_) {
+    const auto is_nowhere = [](int index) { return index < 0 || index == kNowhere; };
+    if (is_nowhere(corner.vertex) || is_nowhere(corner.uv)) {
+      const Span token = {corner.vertex_text.begin, std::max(corner.uv_text.end, corner.normal_text.end)};
+      return Fault{&ObjText::left_out_out_of_range,
+                   "line " + std::to_string(record.line) + ": index out of range in " + quoted(obj_.view(token))};
+    }
+    if (is_infinite_position(corner.vertex)) return fault_of_vertex(record, corner.vertex);
+    if (is_infinite_uv(corner.uv)) return fault_of_uv(record, corner.uv);
+  }
+  return std::nullopt;
 }
 
-void ObjParser::refuse_infinite_uv() const {
-  const ObjText::UvRecord& record = obj_.uv_records[first_infinite_uv_];
-  scanner_.fail_at(line_of_infinite_uv_, "a UV that is not finite: " + quoted(obj_.view({record.u.begin, record.v.end})));
+bool ObjParser::is_infinite_position(int vertex) const {
+  return std::binary_search(infinite_positions_.begin(), infinite_positions_.end(), vertex);
+}
+
+bool ObjParser::is_infinite_uv(int uv) const { return std::binary_search(infinite_uvs_.begin(), infinite_uvs_.end(), uv); }
+
+std::optional<Fault> ObjParser::fault_of_vertex(const ObjText::FaceRecord& record, int vertex) const {
+  if (is_infinite_position(vertex)) return Fault{&ObjText::left_out_infinite_position, first_infinite_position_};
+  if (vertex < static_cast<int>(obj_.atlas.positions.size())) return std::nullopt;
+  return Fault{&ObjText::left_out_out_of_range, "line " + std::to_string(record.line) + ": face " +
+                                                    std::to_string(record.number) + ": vertex " + std::to_string(vertex + 1) +
+                                                    " is out of range, the file has " +
+                                                    std::to_string(obj_.atlas.positions.size()) + " vertices"};
+}
+
+std::optional<Fault> ObjParser::fault_of_uv(const ObjText::FaceRecord& record, int uv) const {
+  if (is_infinite_uv(uv)) return Fault{&ObjText::left_out_infinite, first_infinite_uv_};
+  if (uv < static_cast<int>(obj_.uv_records.size())) return std::nullopt;
+  return Fault{&ObjText::left_out_out_of_range,
+               "line " + std::to_string(record.line) + ": face " + std::to_string(record.number) + ": UV index " +
+                   std::to_string(uv + 1) + " is out of range, the file has " + std::to_string(obj_.uv_records.size()) + " UVs"};
 }
 
 void ObjParser::add_face() {
@@ -293,10 +308,6 @@ void ObjParser::add_corner(const Corner& corner) {
   const int line = obj_.face_records.back().line;
   if (obj_.atlas.corner_vertices.size() >= static_cast<std::size_t>(std::numeric_limits<int>::max()))
     scanner_.fail_at(line, "more face corners than this program can count");
-  if (corner.normal > highest_normal_) {
-    highest_normal_ = corner.normal;
-    line_of_highest_normal_ = line;
-  }
   obj_.uv_references.push_back({corner.uv_text, corner.uv, obj_.atlas.corner_count()});
   obj_.atlas.corner_vertices.push_back(corner.vertex);
   obj_.corner_normals.push_back(corner.normal);
@@ -304,9 +315,11 @@ void ObjParser::add_corner(const Corner& corner) {
 
 // What is not in the atlas keeps its text; only where records are renumbered or moved its indices must follow.
 void ObjParser::add_element(const Corner& corner) {
-  if (corner.uv >= 0) obj_.uv_references.push_back({corner.uv_text, corner.uv, -1});
-  obj_.element_references.push_back({corner.vertex_text, corner.vertex});
-  if (corner.normal >= 0) obj_.element_references.push_back({corner.normal_text, corner.normal});
+  using Kind = ObjText::ElementReference::Kind;
+  const auto is_given = [](int index) { return index != kNotGiven && index != kNowhere; };
+  if (is_given(corner.uv)) obj_.uv_references.push_back({corner.uv_text, corner.uv, -1});
+  if (is_given(corner.vertex)) obj_.element_references.push_back({corner.vertex_text, corner.vertex, Kind::Position});
+  if (is_given(corner.normal)) obj_.element_references.push_back({corner.normal_text, corner.normal, Kind::Normal});
 }
 
 void ObjParser::read_line_element() {
@@ -321,51 +334,54 @@ void ObjParser::read_point_element() {
     int value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool relative = error == std::errc() && end == text.data() + text.size() && value < 0 && value >= -count;
-    if (relative) obj_.element_references.push_back({token, count + value});
+    if (relative) obj_.element_references.push_back({token, count + value, ObjText::ElementReference::Kind::Position});
   }
   scanner_.skip_logical_line();
 }
 
-// Positive indices may name records that follow, so they are checked at the end.
-void ObjParser::check_indices() const {
+Faults ObjParser::late_faults() const {
   const Atlas& atlas = obj_.atlas;
-  const auto refuse = [](const char* what) { throw RefineError(ErrorCode::BadInput, "read", what); };
+  Faults faults;
+  const auto note = [&](int face, std::optional<Fault> fault) {
+    if (fault) faults.emplace(obj_.face_records[face].number, std::move(*fault));
+  };
+  for (int face = 0; face < atlas.face_count(); ++face) {
+    for (int k = atlas.face_offsets[face]; k < atlas.face_offsets[face + 1]; ++k)
+      note(face, fault_of_vertex(obj_.face_records[face], atlas.corner_vertices[k]));
+  }
+  int face = 0;  // references are in the order of corners, but for one that repeats its face's first
+  for (const ObjText::UvReference& reference : obj_.uv_references) {
+    if (reference.corner < 0) continue;
+    while (reference.corner >= atlas.face_offsets[face + 1]) ++face;
+    note(face, fault_of_uv(obj_.face_records[face], reference.record));
+  }
+  return faults;
+}
+
+// Where no face is divided normals are not looked at, so a missing one is no reason to leave out its face.
+void ObjParser::drop_missing_normals() {
+  const auto count = static_cast<int>(obj_.normal_records.size());
+  for (int face = 0; face < obj_.atlas.face_count(); ++face) {
+    bool misses = false;
+    for (int k = obj_.atlas.face_offsets[face]; k < obj_.atlas.face_offsets[face + 1]; ++k) {
+      int& normal = obj_.corner_normals[k];
+      if (normal >= 0 && normal < count) continue;
+      misses = misses || normal != kNotGiven;
+      normal = -1;
+    }
+    if (misses) obj_.without_normals.add(obj_.face_records[face].line);
+  }
+}
+
+void ObjParser::refuse_without_faces() const {
+  const auto refuse = [](const std::string& what) { throw RefineError(ErrorCode::BadInput, "read", what); };
   if (obj_.face_count == 0) refuse("has no faces");
   if (obj_.left_out_without_uvs.count + obj_.left_out_degenerate.count == obj_.face_count) {
     refuse(obj_.left_out_without_uvs.count > 0 ? "has no UVs: no face has a vt index at each of its corners"
                                                : "has no faces of three different vertices");
   }
-  if (atlas.face_count() == 0 && obj_.left_out_infinite.count > 0) refuse_infinite_uv();
-  if (atlas.face_count() == 0) refuse("has no faces with UVs that come to each of their vertices once");
-  if (highest_normal_ >= static_cast<int>(obj_.normal_records.size()))
-    scanner_.fail_at(line_of_highest_normal_, "normal index " + std::to_string(highest_normal_ + 1) +
-                                                  " is out of range, the file has " + std::to_string(obj_.normal_records.size()) +
-                                                  " normals");
-  for (int face = 0; face < atlas.face_count(); ++face) check_vertices(face);
-  for (const ObjText::UvReference& reference : obj_.uv_references) check_uv(reference);
-}
-
-void ObjParser::check_vertices(int face) const {
-  const Atlas& atlas = obj_.atlas;
-  for (int k = atlas.face_offsets[face]; k < atlas.face_offsets[face + 1]; ++k) {
-    if (const int vertex = atlas.corner_vertices[k]; vertex >= static_cast<int>(atlas.positions.size()))
-      scanner_.fail_at(obj_.face_records[face].line, "face " + std::to_string(obj_.face_records[face].number) + ": vertex " +
-                                                         std::to_string(vertex + 1) + " is out of range, the file has " +
-                                                         std::to_string(atlas.positions.size()) + " vertices");
-  }
-}
-
-void ObjParser::check_uv(const ObjText::UvReference& reference) const {
-  // A face before its vt records is not left out.
-  if (reference.corner >= 0 && is_infinite(reference.record)) refuse_infinite_uv();
-  if (reference.record < static_cast<int>(obj_.uv_records.size())) return;
-  const std::string what = "UV index " + std::to_string(reference.record + 1) + " is out of range, the file has " +
-                           std::to_string(obj_.uv_records.size()) + " UVs";
-  if (reference.corner < 0) throw RefineError(ErrorCode::BadInput, "read", "a line element or a face that is left out: " + what);
-  const auto& offsets = obj_.atlas.face_offsets;
-  const auto after = std::upper_bound(offsets.begin(), offsets.end(), reference.corner);
-  const ObjText::FaceRecord& face = obj_.face_records[after - offsets.begin() - 1];
-  scanner_.fail_at(face.line, "face " + std::to_string(face.number) + ": " + what);
+  if (obj_.atlas.face_count() > 0) return;
+  refuse(first_fault_.empty() ? "has no faces with UVs that come to each of their vertices once" : first_fault_);
 }
 
 ObjParser::Corner ObjParser::corner(Span token) const {
@@ -385,43 +401,41 @@ ObjParser::Corner ObjParser::corner(Span token) const {
   return result;
 }
 
-// A 1-based index, or a negative one relative to the `count` records so far. `token` is what messages quote.
+// Of a 1-based index, or a negative one relative to the `count` records so far. `token` is what messages quote.
 int ObjParser::index(std::string_view text, Span token, std::size_t count) const {
   long long value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument)
     scanner_.fail(quoted(obj_.view(token)) + " is not a face corner");
-  const bool fits = error == std::errc() && value <= std::numeric_limits<int>::max();
-  if (!fits || value == 0 || value < -static_cast<long long>(count))
-    scanner_.fail("index out of range in " + quoted(obj_.view(token)));
+  if (error != std::errc() || value == 0 || std::abs(value) >= kNowhere) return kNowhere;
   return static_cast<int>(value > 0 ? value - 1 : static_cast<long long>(count) + value);
 }
 
 double ObjParser::number(Span token) const {
-  std::string_view text = obj_.view(token);
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end != text.data() + text.size() || error == std::errc::invalid_argument)
-    scanner_.fail(quoted(obj_.view(token)) + " is not a number");
-  // from_chars does not tell an overflow from an underflow.
-  return error == std::errc() ? value : std::strtod(std::string(text).c_str(), nullptr);
+  const std::optional<double> value = read_number(obj_.view(token));
+  if (!value) scanner_.fail(quoted(obj_.view(token)) + " is not a number");
+  return *value;
 }
 
-double ObjParser::finite_number(const char* what) {
+// `not_finite` becomes the text of the first number that is not finite.
+double ObjParser::position_number(std::string_view& not_finite) {
   const Span token = scanner_.next_token();
-  if (token.begin == token.end) scanner_.fail(std::string("a ") + what + " with too few numbers");
+  if (token.begin == token.end) scanner_.fail("a vertex position with too few numbers");
   const double value = number(token);
-  if (!std::isfinite(value)) scanner_.fail(std::string("a ") + what + " that is not finite: " + quoted(obj_.view(token)));
+  if (!std::isfinite(value) && not_finite.empty()) not_finite = obj_.view(token);
   return value;
 }
 
 }  // namespace
 
 ObjText parse_obj(std::string text) {
-  ObjText obj;
-  obj.text = std::move(text);
-  return ObjParser(std::move(obj)).run();
+  Faults known;
+  ObjParser parser(std::move(text), known);
+  const Faults late = parser.read();
+  if (late.empty()) return std::move(parser).take();
+  ObjParser again(std::move(parser).take_text(), late);
+  again.read();
+  return std::move(again).take();
 }
 
 }  // namespace atlas_refine::io

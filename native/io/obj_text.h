@@ -35,10 +35,13 @@ struct ObjText {
     Span whole;
     Span tail;
   };
-  /// Where an element that is not in the atlas (a line, a point, a face left out) names a v or vn record.
+  /// Where an element that is not in the atlas (a line, a point, a face left out) names a v or vn record. It may be one that the
+  /// file does not have: behind the last, or before the first.
   struct ElementReference {
+    enum class Kind { Position, Normal };
     Span text;
     int record = -1;
+    Kind kind = Kind::Position;
   };
   /// Where a vt record lies: its whole line or lines with the line end, and its first two numbers (v empty where not written).
   struct UvRecord {
@@ -48,7 +51,7 @@ struct ObjText {
     Vec2 value;
   };
   /// Where a face corner or a point of a line element names a vt record. Of several for one corner, which its face names several
-  /// times in a row, the first has its UV.
+  /// times in a row, the first has its UV. What is not in the atlas may name one that the file does not have.
   struct UvReference {
     Span text;
     int record = -1;
@@ -80,8 +83,11 @@ struct ObjText {
   std::unordered_map<int, int> repeats;  ///< by corner: how often its face names it again right behind itself
   int face_count = 0;                    ///< of all f records
   Remark with_repeats;
+  Remark without_normals;      ///< that the file does not have; all that is read of them is that they are not there
   Remark left_out_degenerate;  ///< fewer than three different vertices
   Remark left_out_without_uvs;
+  Remark left_out_out_of_range;  ///< a vertex or UV that the file does not have
+  Remark left_out_infinite_position;
   Remark left_out_infinite;    ///< a UV is not finite
   Remark left_out_revisiting;  ///< a vertex comes twice, neither in a row nor at the bridge of a keyhole
 };

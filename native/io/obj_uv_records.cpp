@@ -28,6 +28,12 @@ UvRecords weld(const ObjText& obj, std::vector<UvUse> uses) {
   return result;
 }
 
+int first_value_of(const UvRecords& records, int record) {
+  const auto count = static_cast<int>(records.first.size()) - 1;
+  if (record < 0) return record;
+  return record < count ? records.first[record] : static_cast<int>(records.values.size()) + record - count;
+}
+
 void write_uv_records(const ObjText& obj, int record, const UvRecords& records, std::string& out) {
   const ObjText::UvRecord& old = obj.uv_records[record];
   for (int i = records.first[record]; i < records.first[record + 1]; ++i) {

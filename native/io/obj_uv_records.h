@@ -27,6 +27,10 @@ struct UvRecords {
 /// The distinct values of each record's corners in ascending order; a record that no corner uses keeps its own.
 UvRecords weld(const ObjText& obj, std::vector<UvUse> uses);
 
+/// The first value of the file's record `record`. A record that the file does not have is not there in the output either: as far
+/// behind the last, or before the first.
+int first_value_of(const UvRecords& records, int record);
+
 /// Appends what the file's record `record` becomes.
 void write_uv_records(const ObjText& obj, int record, const UvRecords& records, std::string& out);
 

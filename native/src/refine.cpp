@@ -19,6 +19,7 @@
 #include "report/outcome.h"
 #include "report/texture.h"
 #include "report/tiles.h"
+#include "report/wished_edges.h"
 #include "support/monitor.h"
 
 namespace atlas_refine {
@@ -131,6 +132,7 @@ RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, 
   RefineResult result;
   summarise(whole, participants, options, done, result);
   tell_of(participants, done, journal);
+  tell_of_missing_edges(atlas, options, journal);
   const int parted = tell_of_folds(whole.set, participants, done, journal);
   AssembledAtlas assembled =
       assemble(whole, participants, refined_parts(done),

@@ -78,7 +78,7 @@ def test_importance_counts_the_faces_of_all_files(program, tmp_path, models):
 
 
 def test_refusals_leave_nothing(program, tmp_path, models):
-    models[1].write_text(models[1].read_text() + "f 1/1 2/2 3/99\n")
+    models[1].write_text(models[1].read_text() + "f 1/1 2/2 x/3\n")
     lines = models[1].read_text().count("\n")
     message = program.refused(3, *models, "-o", tmp_path / "out")
     assert message.startswith(f"atlas-refine: {models[1]}: line {lines}: ")

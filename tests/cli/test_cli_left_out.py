@@ -40,6 +40,87 @@ def test_a_face_left_out_is_reported_and_kept(program, tmp_path, case, cut):
     assert records((tmp_path / "plain.obj").read_text(), "vt") == records(target.read_text(), "vt")
 
 
+# grid(8) has 81 of each; what stands behind the grid, and what is told of the face on its last line but for the others
+BAD_RECORDS = {
+    "vertex behind the last": ("f 1/1 2/2 90/3\n", "names a vertex or UV that the file does not have"),
+    "vertex before the first": ("f 1/1 2/2 -90/3\n", "names a vertex or UV that the file does not have"),
+    "vertex zero": ("f 1/1 0/2 3/3\n", "names a vertex or UV that the file does not have"),
+    "enormous index": ("f 1/1 99999999999999999999/2 3/3\n", "names a vertex or UV that the file does not have"),
+    "UV behind the last": ("f 1/1 2/2 3/90\n", "names a vertex or UV that the file does not have"),
+    "UV before the first": ("f 1/1 2/2 3/-90\n", "names a vertex or UV that the file does not have"),
+    "UV NaN": ("vt nan 0\nf 1/1 2/2 3/-1\n", "has a UV that is not finite"),
+    "UV of Windows": ("vt -1.#IND 0\nf 1/1 2/2 3/-1\n", "has a UV that is not finite"),
+    "UV of new Windows": ("vt 0 -nan(ind)\nf 1/1 2/2 3/-1\n", "has a UV that is not finite"),
+    "position NaN": ("v nan nan nan\nf 1/1 2/2 -1/3\n", "has a vertex whose position is not finite"),
+    "position of Windows": ("v 0 1.#QNAN00 1.#INF\nf 1/1 2/2 -1/3\n", "has a vertex whose position is not finite"),
+    "position too large": ("v 0 1e999 0\nf 1/1 2/2 -1/3\n", "has a vertex whose position is not finite"),
+    "position behind its face": ("f 1/1 2/2 82/3\nv nan nan nan\n", "has a vertex whose position is not finite"),
+    "UV behind its face": ("f 1/1 2/2 3/82\nvt inf 0\n", "has a UV that is not finite"),
+}
+
+
+def out_of_range(face, positions, uvs):
+    """Whether some corner of the face's record names what a file with so many records does not have."""
+    for corner in face.split()[1:]:
+        for index, count in zip(corner.split("/"), (positions, uvs), strict=False):
+            if not 0 < abs(int(index)) <= count:
+                return True
+    return False
+
+
+@pytest.mark.parametrize("options", [[], ["--seams", "rectangles", "--candidates", "20"]])
+@pytest.mark.parametrize("case", BAD_RECORDS)
+def test_one_bad_record_costs_its_faces_only(program, tmp_path, case, options):
+    bad, note = BAD_RECORDS[case]
+    source, target, report = (tmp_path / name for name in ("in.obj", "out.obj", "report.json"))
+    plain = grid(8, 30)
+    source.write_text(plain + bad)
+    run = program(source, "-o", target, "--report", report, "--pe-bound", "0.9", *options)
+    assert run.returncode == 0, run.stderr
+    line = plain.count("\n") + 1 + bad[: bad.index("f ")].count("\n")
+    assert json.loads(report.read_text())["warnings"][0] == f"1 face {note} and is left out (line {line})"
+    text = target.read_text()
+    assert all(record in text.splitlines() for record in bad.splitlines() if record[0] == "v")
+    kept = records(text, "f")[-1]
+    assert len(kept.split()) == 4
+    positions, uvs = len(records(text, "v")), len(records(text, "vt"))
+    assert out_of_range(kept, positions, uvs) == ("vertex or UV" in note)
+    if not options:
+        assert records(text, "v") == records(source.read_text(), "v")
+        assert kept == records(bad, "f")[0]
+
+
+def test_a_bad_record_that_no_face_names_costs_nothing(program, tmp_path):
+    source, target, report = (tmp_path / name for name in ("in.obj", "out.obj", "report.json"))
+    plain = grid(8, 30)
+    source.write_text(plain + "v nan nan nan\nvt -1.#IND nan\nl 1 -999\n")
+    run = program(source, "-o", target, "--report", report, "--pe-bound", "0.9")
+    assert run.returncode == 0, run.stderr
+    assert [x for x in json.loads(report.read_text())["warnings"] if "left out" in x] == []
+    source.write_text(plain)
+    assert program(source, "-o", tmp_path / "plain.obj", "--pe-bound", "0.9").returncode == 0
+    assert target.read_text() == (tmp_path / "plain.obj").read_text() + "v nan nan nan\nvt -1.#IND nan\nl 1 -999\n"
+
+
+@pytest.mark.parametrize("options", [[], ["--seams", "rectangles", "--candidates", "20"]])
+def test_a_normal_that_is_not_there_costs_no_face(program, tmp_path, options):
+    source, target, report = (tmp_path / name for name in ("in.obj", "out.obj", "report.json"))
+    plain = grid(8, 30)
+    first = plain.index("f ")
+    face = plain[first:].splitlines()[0]
+    corners = face.split()[1:]
+    bad = "f " + " ".join([f"{corners[0]}/1", f"{corners[1]}/2", *(f"{corner}/-1" for corner in corners[2:])])
+    source.write_text(plain[:first] + "vn 0 0 1\n" + bad + plain[first + len(face) :])
+    run = program(source, "-o", target, "--report", report, "--pe-bound", "0.9", *options)
+    assert run.returncode == 0, run.stderr
+    line = plain[:first].count("\n") + 2
+    told = json.loads(report.read_text())
+    assert f"1 face names a normal that the file does not have (line {line})" in told["warnings"]
+    assert len([x for x in told["warnings"] if "left out" in x]) == 0
+    if not options:
+        assert records(target.read_text(), "f")[0] == bad
+
+
 def test_importance_has_a_number_for_faces_left_out_too(program, tmp_path):
     source, target, weights = (tmp_path / name for name in ("in.obj", "out.obj", "weights.txt"))
     source.write_text(grid(8, 30) + "f 1 2 3\n")

@@ -1,6 +1,7 @@
 """docs/report.schema.json says field by field what the program writes: every field that is written is in it, and the reverse."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -73,6 +74,15 @@ def test_reports_hold_the_schema(program, tmp_path, case):
     ]
     assert [chart["index"] for chart in told["charts"]] == list(range(told["before"]["chart_count"]))
     assert sum(chart["faces"] for chart in told["charts"]) == sum(file["faces"] for file in told["files"])
+
+
+def test_distortion_of_nothing_is_none(program, tmp_path):
+    told, summary = report(program, tmp_path, [re.sub("vt .*", "vt 0 0", grid(4))])
+    validator().validate(told)
+    assert told["after"]["chart_count"] == 0
+    for when in ("before", "after"):
+        assert {told[when][name] for name in ("distortion", "distortion_to_input", "stretch_99", "stretch_max")} == {None}
+    assert "  E_d          - -> -\n" in summary
 
 
 @pytest.mark.parametrize("damage", [("extra", 1), ("after", None), ("intervention", "bent"), ("iterations", 0.5)])

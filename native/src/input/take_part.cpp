@@ -13,6 +13,7 @@ namespace atlas_refine {
 namespace {
 
 constexpr double kCollapsed = 1e-6;
+constexpr double kFar = 1e3;           // of the median: so long a triangle reaches to a vertex that was lost
 constexpr double kTile = 1;            // UV units
 constexpr double kOnEachOther = 1e-4;  // of the UV box: how near stacked charts lie
 
@@ -27,6 +28,28 @@ std::vector<int> leaders_first(const ChartSet& set, std::vector<int> charts, con
   return charts;
 }
 
+/// The longer side of the box of each triangle.
+std::vector<double> extents_of_triangles(const Chart& chart) {
+  std::vector<double> out;
+  for (const Triangle& t : chart.triangles)
+    out.push_back(box_of_points({chart.uvs[t[0]], chart.uvs[t[1]], chart.uvs[t[2]]}).size().maxCoeff());
+  return out;
+}
+
+/// Whether the triangles up to that extent lie on a point or a line.
+bool is_point_or_line(const Chart& chart, const std::vector<double>& extents, double longest, double box_side) {
+  std::vector<Vec2> points;
+  double area = 0;
+  for (std::size_t t = 0; t < extents.size(); ++t) {
+    if (extents[t] > longest) continue;
+    const Triangle& corners = chart.triangles[t];
+    for (const int v : corners) points.push_back(chart.uvs[v]);
+    area += 0.5 * std::abs(doubled_area(chart.uvs[corners[0]], chart.uvs[corners[1]], chart.uvs[corners[2]]));
+  }
+  const double length = box_of_points(points).size().maxCoeff();
+  return length <= kCollapsed * box_side || area <= kCollapsed * length * std::max(length, box_side);
+}
+
 /// The fold that each chart was part of, -1 where none.
 std::vector<int> folds_of_charts(const ChartSet& set) {
   std::vector<int> out(set.charts.size(), -1);
@@ -39,11 +62,12 @@ std::vector<int> folds_of_charts(const ChartSet& set) {
 }  // namespace
 
 bool is_collapsed(const Chart& chart, double box_side) {
-  const double length = box_of_points(chart.uvs).size().maxCoeff();
-  double area = 0;
-  for (const Triangle& t : chart.triangles)
-    area += 0.5 * std::abs(doubled_area(chart.uvs[t[0]], chart.uvs[t[1]], chart.uvs[t[2]]));
-  return length <= kCollapsed * box_side || area <= kCollapsed * length * std::max(length, box_side);
+  const std::vector<double> extents = extents_of_triangles(chart);
+  if (!is_point_or_line(chart, extents, INFINITY, box_side)) return false;
+  std::vector<double> sorted = extents;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return is_point_or_line(chart, extents, kFar * *middle, box_side);
 }
 
 double collapse_side(const ChartSet& set) {

@@ -34,7 +34,8 @@ struct Participants {
 /// mirrored, locked ones before, lead; parts of one folded chart do not follow each other.
 Participants take_part(const ChartSet& set, const RefineOptions& options, const std::vector<char>& has_uvs);
 
-/// True where the chart's UVs lie on a point or a line: within 1e-6 of `box_side`, or of its own length.
+/// True where the chart's UVs lie on a point or a line: within 1e-6 of `box_side`, or of its own length. Few vertices that are
+/// far from all others, which are none of it, do not make a line of the rest.
 bool is_collapsed(const Chart& chart, double box_side);
 /// The `box_side` for charts of this set.
 double collapse_side(const ChartSet& set);

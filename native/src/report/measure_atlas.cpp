@@ -2,6 +2,8 @@
 #include "report/measure_atlas.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "input/take_part.h"
 #include "measure/certificate.h"
@@ -51,8 +53,16 @@ InputAtlas part_of(const InputAtlas& whole, const std::vector<int>& charts, doub
   return part;
 }
 
+Measures of_nothing() {
+  Measures out;
+  for (auto none : {&Measures::distortion, &Measures::distortion_to_input, &Measures::stretch_99, &Measures::stretch_max})
+    out.*none = std::numeric_limits<double>::quiet_NaN();
+  for (auto gap : {&Measures::gap_between, &Measures::gap_within}) out.*gap = INFINITY;
+  return out;
+}
+
 Measures combined(const std::vector<Measures>& parts, const std::vector<double>& areas) {
-  if (parts.empty()) return {};
+  if (parts.empty()) return of_nothing();
   Measures out = parts.front();
   double total = areas.front();
   for (std::size_t k = 1; k < parts.size(); ++k) {

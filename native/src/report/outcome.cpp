@@ -123,7 +123,9 @@ void tell_of(const Participants& participants, const std::vector<Done>& done, Jo
     return d.outcome.intervention != Intervention::Unchanged && d.outcome.before.gap_between == 0;
   };
   if (std::any_of(done.begin(), done.end(), parted))
-    journal.warnings.emplace_back("charts overlapped or touched each other in the input; each has a place of its own now");
+    journal.warnings.emplace_back(
+        stacked.empty() ? "charts overlapped or touched each other in the input; each has a place of its own now"
+                        : "other charts overlapped or touched each other in the input; each of these has a place of its own now");
   if (done.empty()) journal.warnings.emplace_back("no chart takes part: nothing was changed");
 }
 
