@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "measure/distortion.h"
+#include "reduce/schedule.h"
 #include "support/parallel.h"
 
 namespace atlas_refine {
@@ -40,7 +41,9 @@ bool better(const ReduceResult& a, const ReduceResult& b) {
   if (a.within_limit != b.within_limit) return a.within_limit;
   if (!a.within_limit) return a.distortion < b.distortion;
   if (a.reached != b.reached) return a.reached;
-  return a.reached ? a.energy < b.energy : a.pe > b.pe;
+  if (a.reached) return a.energy < b.energy;
+  const double least = std::min(a.least_energy, b.least_energy);
+  return worth_below_target(a.pe, a.energy, least) > worth_below_target(b.pe, b.energy, least);
 }
 
 /// The next gap goes on from here, unless charts were crushed on the way.

@@ -49,9 +49,9 @@ ReduceProblem problem_at(const PlacedCharts& start, const Objective& objective, 
 
 /// Reduces from every start (each free of flips, crossings and nearer charts than the first gap) and keeps the result of least
 /// distortion that holds the bound. Where none does, or the bound costs much distortion with this gap, the next one is tried, and
-/// kept where it spares a good part of that distortion; in the end, where none holds the bound, the state of the highest PE is
-/// returned. Starts run in parallel; the choice is by the objective, ties by index. Once the monitor is finishing, each start
-/// ends with the best state it has, and no further gap is tried.
+/// kept where it spares a good part of that distortion; in the end, where none holds the bound, the state that is worth the most
+/// below it is returned. Starts run in parallel; the choice is by the objective, ties by index. Once the monitor is finishing,
+/// each start ends with the best state it has, and no further gap is tried.
 Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                           Monitor& monitor);
 
