@@ -118,10 +118,18 @@ PlacedCharts with_uvs_of(PlacedCharts placed, const ReduceResult& result) {
   return placed;
 }
 
+Gap beyond_rounding(Gap gap, Stored stored) {
+  // Of the box; single precision moves both charts by up to half a unit in the last place, on both axes.
+  const double rounding = stored == Stored::Float32 ? 2e-7 : 1e-12;
+  constexpr double kMost = 0.004;  // of the gap: starts are kStartGap of it apart
+  gap.value += std::min(rounding, kMost * gap.value);
+  return gap;
+}
+
 ReduceProblem problem_at(const PlacedCharts& start, const Objective& objective, const Gap& gap, const SqueezeOptions& options) {
   return {.charts = start.charts,
           .objective = objective,
-          .gap = gap,
+          .gap = beyond_rounding(gap, options.stored),
           .box_aspect = options.box_aspect,
           .pe_target = options.pe_bound,
           .threads = options.threads,

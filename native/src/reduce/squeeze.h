@@ -18,7 +18,12 @@ struct SqueezeOptions {
   Freedoms freedom = {};       ///< of the charts; fixed ones need starts in a frame
   double least_change = 5e-4;  ///< ReduceProblem::least_change: the last 1e-5 of E_d took a third of all iterations
   double negligible = 1e-6;    ///< ReduceProblem::negligible
+  Stored stored = Stored::Double;
 };
+
+/// What to aim at so that the gap is kept when the UVs are brought to their texture and stored: charts that only move jam at the
+/// very gap they are given.
+Gap beyond_rounding(Gap gap, Stored stored);
 
 /// Why the first of automatic_gaps() may be smaller than the default.
 inline constexpr const char* kNoRoom = "a larger one leaves the charts no room at the bound";
