@@ -169,6 +169,27 @@ TEST(KeptShape, OfAllChartsIsPurePacking) {
   EXPECT_NE(std::string(error.what()).find("all charts are kept in their shapes"), std::string::npos) << error.what();
 }
 
+TEST(KeptShape, ChartsThatJamAtTheVeryGapKeepIt) {
+  for (const std::uint64_t seed : {1, 5}) {
+    const Atlas atlas = shapes::scraps_and_blobs(10, seed);
+    for (const Stored stored : {Stored::Double, Stored::Float32}) {
+      for (const Rotate rotate : {Rotate::Any, Rotate::QuarterTurns}) {
+        const RefineOptions options{.pe_bound = 0.95,
+                                    .best_effort = true,
+                                    .stored = stored,
+                                    .rotate = rotate,
+                                    .keep_shape = std::vector<char>(atlas.face_count(), 1)};
+        SCOPED_TRACE(seed);
+        try {
+          testing::expect_sound(atlas, refine(atlas, options), options);
+        } catch (const RefineError& error) {
+          ADD_FAILURE() << error.what();
+        }
+      }
+    }
+  }
+}
+
 TEST(KeptShape, OfAChartThatOverlapsItselfLeavesItByName) {
   const Atlas atlas = shapes::combine({five_charts(), shapes::self_overlapping()});
   const RefineResult result = refine(atlas, {.pe_bound = 0.7, .keep_shape = flag(atlas, {5})});

@@ -4,6 +4,7 @@
 
 #include "charts.h"
 #include "refine_checks.h"
+#include "report/journal.h"
 #include "shapes.h"
 
 namespace atlas_refine {
@@ -40,6 +41,19 @@ TEST(Limits, TheLargestDistortionCountsOnTheSurfaceWhateverTheDensity) {
     options.best_effort = true;  // takes a missed bound, not a missed limit
     EXPECT_EQ(testing::refusal(dome(), options).code(), ErrorCode::BoundNotReached);
   }
+}
+
+TEST(Limits, ChartsThatJamAreNotCrushedForTheBestPe) {
+  RefineOptions options{.pe_bound = 0.96, .gap = Gap{0.02}};
+  const Atlas atlas = shapes::squares(9);
+  const std::string message = testing::refusal(atlas, options).what();
+  options.best_effort = true;
+  const RefineResult best = refine(atlas, options);
+  EXPECT_FALSE(best.bound_met);
+  EXPECT_LE(best.after.distortion, 1.5);
+  EXPECT_NE(message.find(number_text("%.4f", best.after.pe) + " at E_d " + number_text("%.4f", best.after.distortion)),
+            std::string::npos)
+      << message;
 }
 
 TEST(Limits, TheBestPeIsNamedWithinTheLimit) {

@@ -118,7 +118,8 @@ SqueezeOptions squeeze_options(const Refinement& run, const Freedoms& freedom, c
           .gaps = gaps,
           .max_distortion = max_distortion,
           .threads = run.threads,
-          .freedom = freedom};
+          .freedom = freedom,
+          .stored = run.options.stored};
 }
 
 Squeezed squeeze_from(const Refinement& run, const CutAtlas& atlas, const std::vector<PlacedCharts>& starts,

@@ -18,7 +18,7 @@
 #include "place_and_squeeze.h"
 #include "rectangle_pictures.h"
 #include "reduce/goal.h"
-#include "reduce/reduce.h"
+#include "reduce/squeeze.h"
 #include "report/locked.h"
 
 namespace atlas_refine {
@@ -121,7 +121,7 @@ ReduceResult reduce(const Refinement& run, const Gap& gap, double least_change, 
   const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), cut);
   const ReduceProblem problem{.charts = pieces,
                               .objective = goal_of(run.input.set.charts, cut, run.options),
-                              .gap = gap,
+                              .gap = beyond_rounding(gap, run.options.stored),
                               .box_aspect = run.options.box_aspect,
                               .pe_target = run.options.pe_bound,
                               .enough_distortion = enough,

@@ -77,5 +77,14 @@ TEST(Schedule, TheMarginFollowsTheErrorAndIsBounded) {
   EXPECT_DOUBLE_EQ(schedule.margin, 0.5 * kMostMargin);
 }
 
+TEST(Schedule, BelowTheTargetPeIsWorthLittleDistortion) {
+  EXPECT_GT(worth_below_target(0.9, 1.03, 1), worth_below_target(0.89, 1, 1));   // the first per cent are nearly free
+  EXPECT_GT(worth_below_target(0.9, 1.2, 1), worth_below_target(0.8, 1, 1));     // a good deal of PE is worth some
+  EXPECT_LT(worth_below_target(0.91, 1.5, 1), worth_below_target(0.9, 1.1, 1));  // the last per cent are not
+  EXPECT_LT(worth_below_target(0.99, 10, 1), worth_below_target(0.1, 1, 1));
+  // Charts that came distorted are measured by their own least.
+  EXPECT_DOUBLE_EQ(worth_below_target(0.8, 6, 5), worth_below_target(0.8, 1.2, 1));
+}
+
 }  // namespace
 }  // namespace atlas_refine

@@ -245,14 +245,15 @@ std::optional<ReduceStatus> ended(const Task& task, const Iterate& at, const Sch
   return std::nullopt;
 }
 
-/// True where `a` is a better result than `b`.
-bool better(const Task& task, const Iterate& a, const Iterate& b) {
+/// True where `a` is a better result than `b`; `least`: energy so far.
+bool better(const Task& task, const Iterate& a, const Iterate& b, double least) {
   const bool a_within = task.within_limit(a), b_within = task.within_limit(b);
   if (a_within != b_within) return a_within;
   if (!a_within) return a.distortion < b.distortion;
   const bool a_holds = task.holds_bound(a), b_holds = task.holds_bound(b);
   if (a_holds != b_holds) return a_holds;
-  return a_holds ? a.energy < b.energy : a.pe > b.pe;
+  if (a_holds) return a.energy < b.energy;
+  return worth_below_target(a.pe, a.energy, least) > worth_below_target(b.pe, b.energy, least);
 }
 
 /// Of every triangle of every piece, those that do not bend too.
@@ -329,8 +330,8 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
     advance(task, *step, schedule, at);
     if (relaxing) adapt_margin(schedule, std::abs(std::log(at.pe / pe) - at.fraction * step->predicted_gain));
     adapt(schedule, task.view(at, schedule.margin), at.price, at.fraction);
-    if (better(task, at, best)) best = at;
     counters = counted(task, {at.energy - energy, at.distortion - distortion, at.pe - pe}, at, schedule, counters);
+    if (better(task, at, best, std::min(first_energy, counters.least_energy))) best = at;
   }
   ReduceResult out = result_of(task, best, status, schedule.stiffness, iteration);
   out.first_energy = first_energy;

@@ -73,7 +73,8 @@ struct ReduceProgress {
 using ReduceMonitor = std::function<bool(const ReduceProgress&)>;
 
 /// The best state that was found: within max_distortion if any was, then at the target if any was, then of the least objective
-/// there, or the highest PE.
+/// there, or the one that is worth the most below it (`worth_below_target`): a high PE, but not of charts that were crushed for
+/// it.
 struct ReduceResult {
   std::vector<std::vector<Vec2>> uvs;  ///< one array per chart, in the start's units
   Vec2 frame = Vec2::Zero();           ///< where the problem has one: what it has become

@@ -51,4 +51,8 @@ bool settled(const Schedule& schedule, const ScheduleView& view, double price);
 /// Distortion has grown so much while relaxing that the pieces must be wedged.
 bool wedged(const Schedule& schedule, double energy, double first_energy);
 
+/// What a state below the target is worth to who takes it all the same: log PE less what distortion beyond `least`, the least on
+/// the way, costs. The first per cent are nearly free; charts that jam are not to be crushed for the last ones of PE.
+double worth_below_target(double pe, double energy, double least);
+
 }  // namespace atlas_refine

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "measure/distortion.h"
+#include "reduce/schedule.h"
 #include "support/parallel.h"
 
 namespace atlas_refine {
@@ -40,7 +41,9 @@ bool better(const ReduceResult& a, const ReduceResult& b) {
   if (a.within_limit != b.within_limit) return a.within_limit;
   if (!a.within_limit) return a.distortion < b.distortion;
   if (a.reached != b.reached) return a.reached;
-  return a.reached ? a.energy < b.energy : a.pe > b.pe;
+  if (a.reached) return a.energy < b.energy;
+  const double least = std::min(a.least_energy, b.least_energy);
+  return worth_below_target(a.pe, a.energy, least) > worth_below_target(b.pe, b.energy, least);
 }
 
 /// The next gap goes on from here, unless charts were crushed on the way.
@@ -115,10 +118,18 @@ PlacedCharts with_uvs_of(PlacedCharts placed, const ReduceResult& result) {
   return placed;
 }
 
+Gap beyond_rounding(Gap gap, Stored stored) {
+  // Of the box; single precision moves both charts by up to half a unit in the last place, on both axes.
+  const double rounding = stored == Stored::Float32 ? 2e-7 : 1e-12;
+  constexpr double kMost = 0.004;  // of the gap: starts are kStartGap of it apart
+  gap.value += std::min(rounding, kMost * gap.value);
+  return gap;
+}
+
 ReduceProblem problem_at(const PlacedCharts& start, const Objective& objective, const Gap& gap, const SqueezeOptions& options) {
   return {.charts = start.charts,
           .objective = objective,
-          .gap = gap,
+          .gap = beyond_rounding(gap, options.stored),
           .box_aspect = options.box_aspect,
           .pe_target = options.pe_bound,
           .threads = options.threads,

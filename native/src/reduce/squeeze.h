@@ -18,7 +18,12 @@ struct SqueezeOptions {
   Freedoms freedom = {};       ///< of the charts; fixed ones need starts in a frame
   double least_change = 5e-4;  ///< ReduceProblem::least_change: the last 1e-5 of E_d took a third of all iterations
   double negligible = 1e-6;    ///< ReduceProblem::negligible
+  Stored stored = Stored::Double;
 };
+
+/// What to aim at so that the gap is kept when the UVs are brought to their texture and stored: charts that only move jam at the
+/// very gap they are given.
+Gap beyond_rounding(Gap gap, Stored stored);
 
 /// Why the first of automatic_gaps() may be smaller than the default.
 inline constexpr const char* kNoRoom = "a larger one leaves the charts no room at the bound";
@@ -49,9 +54,9 @@ ReduceProblem problem_at(const PlacedCharts& start, const Objective& objective, 
 
 /// Reduces from every start (each free of flips, crossings and nearer charts than the first gap) and keeps the result of least
 /// distortion that holds the bound. Where none does, or the bound costs much distortion with this gap, the next one is tried, and
-/// kept where it spares a good part of that distortion; in the end, where none holds the bound, the state of the highest PE is
-/// returned. Starts run in parallel; the choice is by the objective, ties by index. Once the monitor is finishing, each start
-/// ends with the best state it has, and no further gap is tried.
+/// kept where it spares a good part of that distortion; in the end, where none holds the bound, the state that is worth the most
+/// below it is returned. Starts run in parallel; the choice is by the objective, ties by index. Once the monitor is finishing,
+/// each start ends with the best state it has, and no further gap is tried.
 Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                           Monitor& monitor);
 
