@@ -179,7 +179,7 @@ TEST(PackCharts, WorkIsNearlyLinearInCharts) {
     const Charts charts = scraps_and_blobs(count);
     std::vector<GridChart> grid;
     const double cells = 256 * std::sqrt(count / 60.0), cell = std::sqrt(charts.area / 0.8) / cells;
-    GreedyRule rule{.strip_width = static_cast<int>(cells), .resume = true};
+    GreedyRule rule{.strip_width = static_cast<int>(cells), .many = true, .resume = true};
     for (const Outline& outline : charts.outlines) {
       auto& rasters = grid.emplace_back().rasters;
       for (const Turn& turn : turns_to_try(outline, 1)) rasters.push_back(rasterise(outline, turn, 0, cell));

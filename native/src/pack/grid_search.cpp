@@ -24,8 +24,10 @@ constexpr int kFinalists = 4;
 constexpr int kBatch = 32;  // greedy starts between two looks at the target
 /// Work of all greedy starts in words looked at: more than atlases of any number of charts need, half a second of tall strips.
 constexpr std::int64_t kGreedyWork = budget(200'000'000);
-/// Cells along the side: more charts need a finer grid, or most of it is what rounding adds to each; bounds its memory.
-constexpr double kMostCells = 8192;
+/// Cells along the side for sixty charts. More charts need a finer grid, or most of it is what rounding adds to each; with many
+/// half the cell brings twice what compaction does, and takes less time.
+constexpr double kCells = 256, kCellsOfMany = 512;
+constexpr double kMostCells = 8192;  ///< bounds the memory
 /// Cells are so large that no chart is longer than this many sides of the grid: a needle's length is no measure of the area.
 constexpr double kLongestChart = 16;
 
@@ -61,7 +63,7 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
     longest = std::max(longest, length_of(outline) + options.gap);
   }
   Grid grid;
-  grid.cells_per_side = std::clamp(256 * std::sqrt(n / 60.0), 256.0, kMostCells);
+  grid.cells_per_side = std::clamp((n > kManyCharts ? kCellsOfMany : kCells) * std::sqrt(n / 60.0), kCells, kMostCells);
   grid.cell = std::max(std::sqrt(dilated_area / 0.8), longest / kLongestChart) / grid.cells_per_side;
   grid.charts.resize(n);
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
@@ -91,10 +93,15 @@ GreedyRule random_rule(const Grid& grid, double aspect, Rng rng) {
   rule.order.resize(n);
   std::iota(rule.order.begin(), rule.order.end(), 0);
   std::sort(rule.order.begin(), rule.order.end(), [&](int a, int b) { return size[a] != size[b] ? size[a] > size[b] : a < b; });
-  const double width = aspect > 0 ? rng.uniform(0.95, 1.1) * std::sqrt(aspect) : rng.uniform(0.7, 1.4);
+  // Many charts fill any box; in a square a gap that is a part of its diagonal is the least.
+  const bool near_square = aspect == 0 && n > kManyCharts;
+  const double width = aspect > 0    ? rng.uniform(0.95, 1.1) * std::sqrt(aspect)
+                       : near_square ? rng.uniform(0.95, 1.1)
+                                     : rng.uniform(0.7, 1.4);
   rule.strip_width = std::max(widest, static_cast<int>(grid.cells_per_side * width));
   rule.height_weight = rng.uniform(0.3, 1.2);
   rule.turn_noise = rng.uniform(0, 0.2);
+  rule.many = n > kManyCharts;
   rule.resume = n > kTooManyToCompact;
   rule.rng = rng;
   return rule;
