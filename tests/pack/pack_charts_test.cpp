@@ -174,6 +174,11 @@ TEST(PackCharts, MoreChartsFillTheBoxAsWell) {
   EXPECT_GT(pe(5000), pe(1100) - 0.02);
 }
 
+TEST(PackCharts, HundredsOfChartsNeedNoCompactionToFillTheBox) {
+  const Charts charts = scraps_and_blobs(700);
+  EXPECT_GT(pack_charts(charts.outlines, charts.areas, {.gap = 0.003}).pe, 0.82);
+}
+
 TEST(PackCharts, WorkIsNearlyLinearInCharts) {
   const auto work = [](int count) {
     const Charts charts = scraps_and_blobs(count);

@@ -20,9 +20,11 @@ bool is_set(const Raster& raster, int x, int y) { return raster.row(y)[x >> 6] >
 
 }  // namespace
 
-std::array<Probe, 3> probes_of(const Raster& raster) {
-  std::array<Probe, 3> best;
-  std::array<int, 3> best_side = {0, 0, 0};
+Probes probes_of(const Raster& raster) {
+  struct Square {
+    int side = 0, x = 0, y = 0;
+  };
+  std::array<Square, 3> best;
   const bool wide = raster.width >= raster.height;
   const int length = wide ? raster.width : raster.height;
   // The largest square with its min corner at x, from those to the right of it and above.
@@ -31,18 +33,20 @@ std::array<Probe, 3> probes_of(const Raster& raster) {
     std::swap(side, above);
     for (int x = raster.width - 1; x >= 0; --x) {
       side[x] = is_set(raster, x, y) ? 1 + std::min({side[x + 1], above[x], above[x + 1]}) : 0;
-      const int middle = (wide ? x : y) + side[x] / 2, third = std::min(2, 3 * middle / length);
-      if (side[x] <= best_side[third]) continue;
-      best_side[third] = side[x];
-      best[third] = {level_of(side[x]), x, y};
+      const int middle = (wide ? x : y) + side[x] / 2;
+      Square& largest = best[std::min(2, 3 * middle / length)];
+      if (side[x] > largest.side) largest = {side[x], x, y};
     }
   }
-  const int largest = static_cast<int>(std::max_element(best_side.begin(), best_side.end()) - best_side.begin());
-  for (int third = 0; third < 3; ++third) {
-    if (best_side[third] == 0) best[third] = best[largest];
+  std::stable_sort(best.begin(), best.end(), [](const Square& a, const Square& b) { return a.side > b.side; });
+  for (Square& square : best) {
+    if (square.side == 0) square = best[0];
   }
-  std::swap(best[0], best[largest]);  // the one that tells most comes first
-  return best;
+  const auto probe = [](const Square& square, int inset) {
+    return Probe{level_of(square.side), square.x + inset, square.y + inset};
+  };
+  const int rounded_off = best[0].side - kSides[level_of(best[0].side)];
+  return {probe(best[0], 0), probe(best[0], rounded_off), probe(best[1], 0), probe(best[2], 0)};
 }
 
 FreeSquares::FreeSquares(int width)
@@ -109,7 +113,7 @@ std::uint64_t FreeSquares::open_words(const Probe& probe, int y, int chunk) cons
   return (probe.x & 63) == 0 ? ~here : ~(here & bits_from(full, first + 1));
 }
 
-int FreeSquares::next_word(const std::array<Probe, 3>& probes, int y, int word) const {
+int FreeSquares::next_word(const Probes& probes, int y, int word) const {
   for (int chunk = word >> 6; chunk < chunks_; ++chunk) {
     std::uint64_t open = chunk == word >> 6 ? kAll << (word & 63) : kAll;
     for (const Probe& probe : probes) {
@@ -121,7 +125,7 @@ int FreeSquares::next_word(const std::array<Probe, 3>& probes, int y, int word) 
   return chunks_ * 64;
 }
 
-std::uint64_t FreeSquares::blocked(const std::array<Probe, 3>& probes, int y, int word) const {
+std::uint64_t FreeSquares::blocked(const Probes& probes, int y, int word) const {
   std::uint64_t blocked = 0;
   for (const Probe& probe : probes) {
     if (y + probe.y >= rows_ || blocked == kAll) continue;

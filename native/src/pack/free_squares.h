@@ -16,8 +16,11 @@ struct Probe {
   int x, y;   ///< its min corner in the raster, cells
 };
 
-/// Of a raster one in each third of its longer side: the largest there is.
-std::array<Probe, 3> probes_of(const Raster& raster);
+using Probes = std::array<Probe, 4>;
+
+/// Of a raster the largest in each third of its longer side. Sides are rounded down to a level's: the largest of all is told by
+/// two, from its min and its max corner.
+Probes probes_of(const Raster& raster);
 
 /// For each of some sides a bitmap of the strip: bit x of row y is set where the square with that min corner hits a taken cell.
 /// Words of which all bits are set are marked, so that 4096 positions are passed over at once.
@@ -28,9 +31,9 @@ class FreeSquares {
   void add(const Raster& raster, const Cell& place);
 
   /// The next word from `word` on in which one of the probes' 64 positions may be free in row `y`; `words_` where there is none.
-  int next_word(const std::array<Probe, 3>& probes, int y, int word) const;
+  int next_word(const Probes& probes, int y, int word) const;
   /// The positions of that word at which some probe hits a taken cell.
-  std::uint64_t blocked(const std::array<Probe, 3>& probes, int y, int word) const;
+  std::uint64_t blocked(const Probes& probes, int y, int word) const;
 
  private:
   struct Level {

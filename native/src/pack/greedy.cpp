@@ -27,9 +27,9 @@ class RecentPlaces {
   }
 
  private:
-  using Rows = std::array<int, 4>;  // places: more find little more, and take longer
+  using Rows = std::array<int, 8>;  // places: more find little more, and take longer
 
-  static int step(int cells) { return static_cast<int>(std::lround(8 * std::log2(cells))); }  // so many to twice the size
+  static int step(int cells) { return static_cast<int>(std::lround(4 * std::log2(cells))); }  // so many to twice the size
   static std::pair<int, int> size_of(const Raster& raster) { return {step(raster.width), step(raster.height)}; }
 
   std::map<std::pair<int, int>, Rows> rows_;

@@ -18,15 +18,15 @@ namespace {
 /// Beyond this many charts, separation and many starts cost more than they
 /// bring.
 constexpr int kManyCharts = 200;
-/// Beyond this many charts even compaction does, and so does looking for each chart's place from the bottom on.
-constexpr int kTooManyToCompact = 1000;
+/// Beyond this many charts a still finer grid brings what compaction does, in less time; a second start brings nothing more, and
+/// looking for each chart's place from the bottom on takes too long.
+constexpr int kTooManyToCompact = 500;
 constexpr int kFinalists = 4;
 constexpr int kBatch = 32;  // greedy starts between two looks at the target
 /// Work of all greedy starts in words looked at: more than atlases of any number of charts need, half a second of tall strips.
 constexpr std::int64_t kGreedyWork = budget(200'000'000);
-/// Cells along the side for sixty charts. More charts need a finer grid, or most of it is what rounding adds to each; with many
-/// half the cell brings twice what compaction does, and takes less time.
-constexpr double kCells = 256, kCellsOfMany = 512;
+/// Cells along the side for sixty charts. More charts need a finer grid, or most of it is what rounding adds to each.
+constexpr double kCells = 256, kCellsOfMany = 512, kCellsOfTooMany = 768;
 constexpr double kMostCells = 8192;  ///< bounds the memory
 /// Cells are so large that no chart is longer than this many sides of the grid: a needle's length is no measure of the area.
 constexpr double kLongestChart = 16;
@@ -63,7 +63,8 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
     longest = std::max(longest, length_of(outline) + options.gap);
   }
   Grid grid;
-  grid.cells_per_side = std::clamp((n > kManyCharts ? kCellsOfMany : kCells) * std::sqrt(n / 60.0), kCells, kMostCells);
+  const double cells = n > kTooManyToCompact ? kCellsOfTooMany : n > kManyCharts ? kCellsOfMany : kCells;
+  grid.cells_per_side = std::clamp(cells * std::sqrt(n / 60.0), kCells, kMostCells);
   grid.cell = std::max(std::sqrt(dilated_area / 0.8), longest / kLongestChart) / grid.cells_per_side;
   grid.charts.resize(n);
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
@@ -117,6 +118,11 @@ std::vector<Placement> placements_of(const Grid& grid, const GridLayout& layout)
   return placements;
 }
 
+int starts_of(int charts) {
+  if (charts > kTooManyToCompact) return 1;
+  return charts > kManyCharts ? std::clamp(2000 / charts, 1, 8) : std::clamp(4000 / charts, 64, 400);
+}
+
 /// Of so many starts, each of which costs `work`.
 int affordable_starts(std::int64_t work, int starts) {
   const std::int64_t affordable = kGreedyWork / std::max<std::int64_t>(1, work);
@@ -139,7 +145,7 @@ class Search {
 
   std::vector<Placement> run() {
     const int n = static_cast<int>(outlines_.size());
-    start_greedily(n > kManyCharts ? std::clamp(2000 / n, 1, 8) : std::clamp(4000 / n, 64, 400));
+    start_greedily(starts_of(n));
     if (least_area_ > enough_ && n <= kTooManyToCompact) compact_best(1, 0.3, 0.4);
     if (least_area_ > enough_ && n <= kManyCharts) {
       shrink_best();

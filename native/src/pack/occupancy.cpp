@@ -98,7 +98,7 @@ bool Occupancy::find_lowest(const Raster& raster, int highest, Cell& place, int 
     for (int bit = 0; bit < bits; ++bit) reversed |= (k >> bit & 1) << (bits - 1 - bit);
     if (static_cast<int>(reversed) < count) order.push_back(reversed);
   }
-  const auto probes = squares_ ? probes_of(raster) : std::array<Probe, 3>{};
+  const auto probes = squares_ ? probes_of(raster) : Probes{};
   const auto next_word = [&](int word, int y) {
     if (!squares_) return word;
     ++work_;
