@@ -151,28 +151,69 @@ double likely_pe(const Refinement& run, const PlacedCharts& placed, const Freedo
   return packing_efficiency(placed, run.options.box_aspect) * grown(gap) / grown(other);
 }
 
-/// How many of the gaps are tried for one with which placing the charts is enough.
-std::size_t gaps_to_place_with(const Refinement& run, std::size_t charts, const Freedoms& freedom, std::size_t gaps) {
-  // Thousands of charts are in each other's way: bending them takes a minute, and a little less gap spares it.
-  constexpr std::size_t kThousands = 1000, kLittleLess = 3;
-  if (none_bends(freedom)) return gaps;
-  return charts >= kThousands && !run.options.relax ? std::min(gaps, kLittleLess) : 1;
+/// Thousands of charts are in each other's way: bending them takes a minute, and a little less gap spares it.
+bool rather_moves(const Refinement& run, std::size_t charts) {
+  constexpr std::size_t kThousands = 1000;
+  return charts >= kThousands && !run.options.relax;
 }
 
-/// Placed with the first gap, or with the first of those to be tried with which placing the charts is enough.
-PlacedCharts place_with(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, double good_enough,
-                        std::vector<Gap>& gaps) {
+/// Where charts lie, and the gap that was left between them.
+struct Placing {
+  PlacedCharts placed;
+  Gap gap;
+};
+
+/// The part of a box that charts take with half the gap around them.
+double taken(const Refinement& run, const std::vector<Chart>& charts, const Gap& gap, double pe) {
+  const double box = uv_area(charts) / pe;
+  return pe * (1 + 0.5 * gap.length(sides_of_area(box, run.options.box_aspect)) * uv_perimeter(charts) / uv_area(charts));
+}
+
+/// More than any placement of charts that bend takes of a box that holds the bound.
+bool takes_too_much(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap) {
+  constexpr double kMostTaken = 0.93;
+  return !none_bends(freedom) && !any_fixed(freedom) && taken(run, charts, gap, run.options.pe_bound) > kMostTaken;
+}
+
+/// Placed with the first of the gaps to be tried with which placing the charts is enough, else with the first that was tried.
+Placing place_with(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, double good_enough,
+                   const std::vector<Gap>& gaps) {
+  constexpr std::size_t kLittleLess = 3;
   constexpr double kPromising = 0.99;  // of the bound
-  PlacedCharts placed = place(run, charts, freedom, gaps.front(), good_enough);
-  if (holds_bound(run, placed, kRounding)) return placed;
-  for (std::size_t k = 1; k < gaps_to_place_with(run, charts.size(), freedom, gaps.size()) && !run.monitor.finishing(); ++k) {
-    if (likely_pe(run, placed, freedom, gaps.front(), gaps[k]) < kPromising * run.options.pe_bound) continue;
+  const bool rather_move = rather_moves(run, charts.size());
+  const std::size_t tries = none_bends(freedom) ? gaps.size() : rather_move ? std::min(gaps.size(), kLittleLess) : 1;
+  std::size_t k = 0;
+  while (rather_move && k + 1 < tries && takes_too_much(run, charts, freedom, gaps[k])) ++k;
+  const Placing first{place(run, charts, freedom, gaps[k], good_enough), gaps[k]};
+  if (holds_bound(run, first.placed, kRounding)) return first;
+  while (++k < tries && !run.monitor.finishing()) {
+    if (likely_pe(run, first.placed, freedom, first.gap, gaps[k]) < kPromising * run.options.pe_bound) continue;
     PlacedCharts closer = place(run, charts, freedom, gaps[k], run.options.pe_bound);
-    if (!holds_bound(run, closer, kRounding)) continue;
-    gaps.erase(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(k));
-    return closer;
+    if (holds_bound(run, closer, kRounding)) return {std::move(closer), gaps[k]};
   }
-  return placed;
+  return first;
+}
+
+/// Without those gaps with which little is left at the bound of what the placement leaves free: thousands of charts would jam.
+std::vector<Gap> without_jams(const Refinement& run, const Placing& placing, std::vector<Gap> gaps) {
+  constexpr double kLeastLeft = 0.4;
+  const std::vector<Chart>& charts = placing.placed.charts;
+  const double pe = packing_efficiency(placing.placed, run.options.box_aspect), bound = run.options.pe_bound;
+  const double free = kLeastLeft * (1 - taken(run, charts, placing.gap, pe));
+  while (gaps.size() > 1 && 1 - taken(run, charts, gaps.front(), bound) < free) gaps.erase(gaps.begin());
+  return gaps;
+}
+
+/// Of all gaps those that may be kept by charts that bend, or that begin with the one that placing them left.
+std::vector<Gap> gaps_to_squeeze_with(const Refinement& run, const std::vector<Chart>& pieces, const Freedoms& freedom,
+                                      const Placing& placing, std::vector<Gap> gaps) {
+  if (holds_bound(run, placing.placed, kRounding)) {
+    std::erase_if(gaps, [&](const Gap& gap) { return gap.value > placing.gap.value; });
+    return gaps;
+  }
+  if (none_bends(freedom)) return gaps;
+  gaps = gaps_of(run, pieces, freedom, kMostTakenBent);
+  return rather_moves(run, pieces.size()) && !any_fixed(freedom) ? without_jams(run, placing, std::move(gaps)) : gaps;
 }
 
 /// What the squeeze needs to go on where `laid` lies, which was cut out of what `from` ended with.
@@ -226,25 +267,29 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
   require_no_needles(pieces);
   std::vector<Gap> gaps = gaps_of(run, pieces, freedom);
   const double good_enough = options.relax && !atlas.seams.empty() ? kNearly * options.pe_bound : options.pe_bound;
-  const Gap largest = gaps.front();
-  PlacedCharts placed = place_with(run, pieces, freedom, good_enough, gaps);
+  Placing placing = place_with(run, pieces, freedom, good_enough, gaps);
+  PlacedCharts& placed = placing.placed;
   if (const Validity valid = certify_charts(placed.charts, points, freedom); !valid.valid())
     throw RefineError(ErrorCode::BadInput, "pack", "charts could not be placed apart: " + valid.problem, valid.chart, valid.face);
   run.journal.show("placed", placed.charts);
-  Solution out{.atlas = with_uvs(atlas, uvs_of(placed.charts)), .gap = gaps.front()};
+  Solution out{.atlas = with_uvs(atlas, uvs_of(placed.charts)), .gap = placing.gap};
   out.atlas.frame = placed.frame;
   if (holds_bound(run, placed, kRounding) && !(options.relax && !none_bends(freedom))) {
-    const bool spares_bending = !none_bends(freedom) && out.gap.value < largest.value;
+    const bool spares_bending = !none_bends(freedom) && out.gap.value < gaps.front().value;
     warn_of_gap(run, out.gap, spares_bending ? "with a larger one charts would have to be bent" : kNoRoom);
     return out;
   }
 
-  if (part_pinches(run, freedom, pieces)) {
-    placed = place_with(run, pieces, freedom, good_enough, gaps);
+  const bool parted = part_pinches(run, freedom, pieces);
+  if (parted) placing = place_with(run, pieces, freedom, good_enough, gaps);
+  gaps = gaps_to_squeeze_with(run, pieces, freedom, placing, gaps);
+  // A wider gap than is to be kept would only be more to be squeezed.
+  if (rather_moves(run, pieces.size()) && placing.gap.value != gaps.front().value)
+    placed = place(run, pieces, freedom, gaps.front(), good_enough);
+  if (parted) {
     out.atlas = with_uvs(std::move(out.atlas), uvs_of(placed.charts));
     out.atlas.frame = placed.frame;
   }
-  if (!none_bends(freedom) && !holds_bound(run, placed, kRounding)) gaps = gaps_of(run, pieces, freedom, kMostTakenBent);
   run.journal.begin_stage("squeeze", range.part(0.25, 1));
   std::optional<PlacedCharts> own;
   if (keeps_place && !options.align_axes && certify_charts(pieces, {}, freedom).valid())

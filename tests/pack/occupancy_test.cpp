@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "outlines.h"
 #include "support/rng.h"
 
@@ -21,9 +23,12 @@ bool is_free(const std::vector<Placed>& all, const Raster& raster, const Cell& p
   return true;
 }
 
-TEST(Occupancy, FindsTheLowestThenLeftmostPlace) {
+/// With and without the index of free squares.
+class OccupancyOf : public ::testing::TestWithParam<bool> {};
+
+TEST_P(OccupancyOf, FindsTheLowestThenLeftmostPlace) {
   constexpr int kWidth = 150;
-  Occupancy strip(kWidth);
+  Occupancy strip(kWidth, GetParam());
   std::vector<Placed> all;
   for (int k = 0; k < 40; ++k) {
     Rng rng(4, k);
@@ -46,6 +51,26 @@ TEST(Occupancy, FindsTheLowestThenLeftmostPlace) {
     EXPECT_TRUE(is_free(all, raster, above));
     strip.add(raster, found);
     all.push_back({raster, found});
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(FewAndMany, OccupancyOf, ::testing::Bool());
+
+TEST(Occupancy, TheIndexOfFreeSquaresChangesNoPlace) {
+  constexpr int kWidth = 70 * 64 + 5;  // marks of full words take two words
+  Occupancy one(kWidth), other(kWidth, true);
+  for (int k = 0; k < 400; ++k) {
+    Rng rng(6, k);
+    const double size = 0.2 + 3 * std::exp(-0.01 * k);
+    const auto polygon = k % 5 == 0 ? shapes::ring() : shapes::rectangle(rng.uniform(0.1, 3), 0.4);
+    const Raster raster =
+        rasterise(testing::outline_of(shapes::transformed(polygon, size, rng.uniform(0, 6), {0, 0})), {}, 0, 0.01);
+    Cell expected, found;
+    ASSERT_TRUE(one.find_lowest(raster, 100000, expected));
+    ASSERT_TRUE(other.find_lowest(raster, 100000, found));
+    ASSERT_EQ(found, expected);
+    one.add(raster, found);
+    other.add(raster, found);
   }
 }
 

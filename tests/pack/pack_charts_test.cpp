@@ -174,12 +174,17 @@ TEST(PackCharts, MoreChartsFillTheBoxAsWell) {
   EXPECT_GT(pe(5000), pe(1100) - 0.02);
 }
 
+TEST(PackCharts, HundredsOfChartsNeedNoCompactionToFillTheBox) {
+  const Charts charts = scraps_and_blobs(700);
+  EXPECT_GT(pack_charts(charts.outlines, charts.areas, {.gap = 0.003}).pe, 0.82);
+}
+
 TEST(PackCharts, WorkIsNearlyLinearInCharts) {
   const auto work = [](int count) {
     const Charts charts = scraps_and_blobs(count);
     std::vector<GridChart> grid;
     const double cells = 256 * std::sqrt(count / 60.0), cell = std::sqrt(charts.area / 0.8) / cells;
-    GreedyRule rule{.strip_width = static_cast<int>(cells), .resume = true};
+    GreedyRule rule{.strip_width = static_cast<int>(cells), .many = true, .resume = true};
     for (const Outline& outline : charts.outlines) {
       auto& rasters = grid.emplace_back().rasters;
       for (const Turn& turn : turns_to_try(outline, 1)) rasters.push_back(rasterise(outline, turn, 0, cell));

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <numeric>
 #include <ostream>
 
 #include "charts.h"
@@ -37,6 +38,7 @@ std::vector<Chart> four_squares() {
 struct Rule {
   Freedoms freedom;
   double aspect;
+  bool rides = false;  // with the box
 };
 void PrintTo(const Rule& rule, std::ostream* out) { *out << any_fixed(rule.freedom) << " fixed, aspect " << rule.aspect; }
 
@@ -55,12 +57,14 @@ class HeldSystem : public ::testing::TestWithParam<Rule> {
   ReduceModel model_with(const Freedoms& freedom) const {
     const double aspect = GetParam().aspect;
     const bool framed = any_fixed(GetParam().freedom);
-    return make_model({.charts = charts_,
-                       .gap = {0.002},
-                       .box_aspect = aspect,
-                       .pe_target = 0.9,
-                       .freedom = freedom,
-                       .frame = framed ? Vec2(aspect * 0.9068, 0.9068) : Vec2(Vec2::Zero())});
+    ReduceModel model = make_model({.charts = charts_,
+                                    .gap = {0.002},
+                                    .box_aspect = aspect,
+                                    .pe_target = 0.9,
+                                    .freedom = freedom,
+                                    .frame = framed ? Vec2(aspect * 0.9068, 0.9068) : Vec2(Vec2::Zero())});
+    if (GetParam().rides) ride_along(model.start, model);
+    return model;
   }
   int sides() const { return GetParam().aspect == 0 ? 2 : 1; }
   int count() const { return 2 * static_cast<int>(nodes_.size()) + sides(); }
@@ -169,7 +173,8 @@ TEST_P(HeldSystem, HessianOfTheWallsIsExact) {
 }
 
 TEST_P(HeldSystem, ContactsAreThoseOfFreeVerticesSeenFromTheNodes) {
-  const ReduceModel free = model_with({});
+  ReduceModel free = model_with({});
+  free.ride.clear();
   BlockSystem held, vertices;
   assemble(model_, start_, contacts_, Contacts, held);
   assemble(free, start_, contacts_, Contacts, vertices);
@@ -194,6 +199,35 @@ INSTANTIATE_TEST_SUITE_P(KindsOfPieces, HeldSystem,
                                            Rule{{kBends, kMoves, kFixed, kFixed}, 1.02},
                                            Rule{{kFixed, kFixed, kMoves, kMoves}, 1},
                                            Rule{{kBends, kBends, kFixed, kBends}, 1.03}));
+INSTANTIATE_TEST_SUITE_P(RidingWithTheBox, HeldSystem,
+                         ::testing::Values(Rule{{kBends, kBends, kBends, kBends}, 0, true},
+                                           Rule{{kBends, kMoves, kBends, kMoves}, 0, true},
+                                           Rule{{kMoves, kBends, kBends, kBends}, 1, true},
+                                           Rule{{kFixed, kBends, kBends, kMoves}, 1, true},
+                                           Rule{{kBends, kBends, kFixed, kBends}, 1.03, true}));
+
+TEST(RidingModel, TheBoxTakesChartsAlongAsTheyAre) {
+  const std::vector<Chart> charts = four_squares();
+  for (const double aspect : {0.0, 1.0}) {
+    ReduceModel model = make_model({.charts = charts, .box_aspect = aspect, .pe_target = 0.9});
+    ride_along(model.start, model);
+    std::vector<Vec2> step(model.node_count(), Vec2::Zero());
+    step.back() = aspect == 0 ? Vec2(-0.02, -0.01) : Vec2(-0.02, 0);
+    spread(model, step);
+    const ReduceState after = moved(model, model.start, step, {{1, 1, 1, 1}}, 1);
+    const auto middle = [&](const ReduceState& state, std::size_t p) {
+      const auto begin = state.x.begin() + model.first_vertex[p], end = state.x.begin() + model.first_vertex[p + 1];
+      return Vec2(std::accumulate(begin, end, Vec2(Vec2::Zero())) / static_cast<double>(end - begin));
+    };
+    ASSERT_LT(after.box.x(), model.start.box.x());
+    for (std::size_t p = 0; p < charts.size(); ++p) {
+      const Vec2 before = middle(model.start, p).cwiseQuotient(model.start.box);
+      EXPECT_NEAR((middle(after, p).cwiseQuotient(after.box) - before).norm(), 0, 1e-14);
+      for (int v = model.first_vertex[p]; v < model.first_vertex[p + 1]; ++v)
+        EXPECT_NEAR((after.x[v] - middle(after, p) - model.start.x[v] + middle(model.start, p)).norm(), 0, 1e-14);
+    }
+  }
+}
 
 TEST(HeldModel, WhatIsFixedCountsInPeAndNotInTheObjective) {
   const std::vector<Chart> charts = four_squares();

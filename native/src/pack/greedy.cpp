@@ -1,5 +1,6 @@
 // Bottom-left placement of charts in a strip.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,15 +11,28 @@
 namespace atlas_refine {
 namespace {
 
-/// Rows below which rasters of about one size no longer find a place: so many steps to twice the size.
-class FullRows {
+/// For rasters of about one size where the last few of them went: the next is searched from the lowest of these places on. One
+/// that fits badly does not keep the others out of the holes below it.
+class RecentPlaces {
  public:
-  int& of(const Raster& raster) { return rows_[{step(raster.width), step(raster.height)}]; }
+  int lowest(const Raster& raster) {
+    const Rows& rows = rows_[size_of(raster)];
+    return *std::min_element(rows.begin(), rows.end());
+  }
+
+  void note(const Raster& raster, int row) {
+    Rows& rows = rows_[size_of(raster)];
+    std::shift_left(rows.begin(), rows.end(), 1);
+    rows.back() = row;
+  }
 
  private:
-  static int step(int cells) { return static_cast<int>(std::lround(4 * std::log2(cells))); }
+  using Rows = std::array<int, 8>;  // places: more find little more, and take longer
 
-  std::map<std::pair<int, int>, int> rows_;
+  static int step(int cells) { return static_cast<int>(std::lround(4 * std::log2(cells))); }  // so many to twice the size
+  static std::pair<int, int> size_of(const Raster& raster) { return {step(raster.width), step(raster.height)}; }
+
+  std::map<std::pair<int, int>, Rows> rows_;
 };
 
 }  // namespace
@@ -27,9 +41,9 @@ GridLayout place_greedily(const std::vector<GridChart>& charts, const GreedyRule
   GridLayout layout;
   layout.turns.assign(charts.size(), 0);
   layout.places.assign(charts.size(), {});
-  Occupancy strip(rule.strip_width);
+  Occupancy strip(rule.strip_width, rule.many);
   Rng rng = rule.rng;
-  FullRows full;
+  RecentPlaces recent;
   int placed = 0;
   for (const int chart : rule.order) {
     watch.poll(static_cast<double>(placed++) / charts.size());
@@ -41,14 +55,11 @@ GridLayout place_greedily(const std::vector<GridChart>& charts, const GreedyRule
       const double room = std::min(best_cost - extra, static_cast<double>(std::numeric_limits<int>::max()));
       if (room < 0) continue;
       Cell place;
-      int nothing_below = 0;
-      int& lowest = rule.resume ? full.of(rasters[turn]) : nothing_below;
+      const int lowest = rule.resume ? recent.lowest(rasters[turn]) : 0;
       const int highest = static_cast<int>(std::floor(room));
-      if (!strip.find_lowest(rasters[turn], highest, place, lowest)) {
-        lowest = std::max(lowest, std::min(highest, strip.height()));
-        continue;
-      }
-      lowest = place.y;
+      const bool found = strip.find_lowest(rasters[turn], highest, place, lowest);
+      recent.note(rasters[turn], found ? place.y : std::max(lowest, std::min(highest, strip.height())));
+      if (!found) continue;
       const double cost = place.y + extra;
       if (cost > best_cost || (cost == best_cost && place.x >= best_x)) continue;
       best_cost = cost;

@@ -18,14 +18,16 @@ namespace {
 /// Beyond this many charts, separation and many starts cost more than they
 /// bring.
 constexpr int kManyCharts = 200;
-/// Beyond this many charts even compaction does, and so does looking for each chart's place from the bottom on.
-constexpr int kTooManyToCompact = 1000;
+/// Beyond this many charts a still finer grid brings what compaction does, in less time; a second start brings nothing more, and
+/// looking for each chart's place from the bottom on takes too long.
+constexpr int kTooManyToCompact = 500;
 constexpr int kFinalists = 4;
 constexpr int kBatch = 32;  // greedy starts between two looks at the target
 /// Work of all greedy starts in words looked at: more than atlases of any number of charts need, half a second of tall strips.
 constexpr std::int64_t kGreedyWork = budget(200'000'000);
-/// Cells along the side: more charts need a finer grid, or most of it is what rounding adds to each; bounds its memory.
-constexpr double kMostCells = 8192;
+/// Cells along the side for sixty charts. More charts need a finer grid, or most of it is what rounding adds to each.
+constexpr double kCells = 256, kCellsOfMany = 512, kCellsOfTooMany = 768;
+constexpr double kMostCells = 8192;  ///< bounds the memory
 /// Cells are so large that no chart is longer than this many sides of the grid: a needle's length is no measure of the area.
 constexpr double kLongestChart = 16;
 
@@ -61,7 +63,8 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
     longest = std::max(longest, length_of(outline) + options.gap);
   }
   Grid grid;
-  grid.cells_per_side = std::clamp(256 * std::sqrt(n / 60.0), 256.0, kMostCells);
+  const double cells = n > kTooManyToCompact ? kCellsOfTooMany : n > kManyCharts ? kCellsOfMany : kCells;
+  grid.cells_per_side = std::clamp(cells * std::sqrt(n / 60.0), kCells, kMostCells);
   grid.cell = std::max(std::sqrt(dilated_area / 0.8), longest / kLongestChart) / grid.cells_per_side;
   grid.charts.resize(n);
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
@@ -91,10 +94,15 @@ GreedyRule random_rule(const Grid& grid, double aspect, Rng rng) {
   rule.order.resize(n);
   std::iota(rule.order.begin(), rule.order.end(), 0);
   std::sort(rule.order.begin(), rule.order.end(), [&](int a, int b) { return size[a] != size[b] ? size[a] > size[b] : a < b; });
-  const double width = aspect > 0 ? rng.uniform(0.95, 1.1) * std::sqrt(aspect) : rng.uniform(0.7, 1.4);
+  // Many charts fill any box; in a square a gap that is a part of its diagonal is the least.
+  const bool near_square = aspect == 0 && n > kManyCharts;
+  const double width = aspect > 0    ? rng.uniform(0.95, 1.1) * std::sqrt(aspect)
+                       : near_square ? rng.uniform(0.95, 1.1)
+                                     : rng.uniform(0.7, 1.4);
   rule.strip_width = std::max(widest, static_cast<int>(grid.cells_per_side * width));
   rule.height_weight = rng.uniform(0.3, 1.2);
   rule.turn_noise = rng.uniform(0, 0.2);
+  rule.many = n > kManyCharts;
   rule.resume = n > kTooManyToCompact;
   rule.rng = rng;
   return rule;
@@ -108,6 +116,11 @@ std::vector<Placement> placements_of(const Grid& grid, const GridLayout& layout)
     placements.push_back({raster.turn.cosine, raster.turn.sine, corner - raster.origin});
   }
   return placements;
+}
+
+int starts_of(int charts) {
+  if (charts > kTooManyToCompact) return 1;
+  return charts > kManyCharts ? std::clamp(2000 / charts, 1, 8) : std::clamp(4000 / charts, 64, 400);
 }
 
 /// Of so many starts, each of which costs `work`.
@@ -132,7 +145,7 @@ class Search {
 
   std::vector<Placement> run() {
     const int n = static_cast<int>(outlines_.size());
-    start_greedily(n > kManyCharts ? std::clamp(2000 / n, 1, 8) : std::clamp(4000 / n, 64, 400));
+    start_greedily(starts_of(n));
     if (least_area_ > enough_ && n <= kTooManyToCompact) compact_best(1, 0.3, 0.4);
     if (least_area_ > enough_ && n <= kManyCharts) {
       shrink_best();

@@ -36,7 +36,8 @@ struct GreedyRule {
   std::vector<int> order;    ///< charts in the order they are placed
   int strip_width = 0;       ///< cells; no chart may be wider in all its turns
   double height_weight = 1;  ///< a chart goes where y + height_weight * (its height) is smallest
-  bool resume = false;       ///< a chart is searched a place from where one of its size went last: near-linear in charts
+  bool many = false;         ///< hundreds of charts: an index of free squares pays
+  bool resume = false;       ///< a chart is searched a place from where some of its size went last: near-linear in charts
   double turn_noise = 0;     ///< the weight grows by up to this, drawn anew for every turn of every chart
   Rng rng{0};
 };

@@ -4,18 +4,14 @@
 #include <algorithm>
 #include <bit>
 
+#include "pack/row_bits.h"
+
 namespace atlas_refine {
-namespace {
 
-/// 64 bits of a row from bit `at` on; the row has a spare word at its end.
-std::uint64_t bits_from(const std::uint64_t* row, int at) {
-  const int word = at >> 6, shift = at & 63;
-  return shift == 0 ? row[word] : (row[word] >> shift) | (row[word + 1] << (64 - shift));
+Occupancy::Occupancy(int width, bool many)
+    : width_(width), words_(width / 64 + 2), levels_(std::bit_width(static_cast<unsigned>(width))) {
+  if (many) squares_.emplace(width);
 }
-
-}  // namespace
-
-Occupancy::Occupancy(int width) : width_(width), words_(width / 64 + 2), levels_(std::bit_width(static_cast<unsigned>(width))) {}
 
 void Occupancy::grow(int rows) {
   const size_t size = static_cast<size_t>(rows) * levels_ * words_;
@@ -47,6 +43,7 @@ int Occupancy::longest_free_run(int y) {
 void Occupancy::add(const Raster& raster, const Cell& place) {
   grow(place.y + raster.height);
   height_ = std::max(height_, place.y + raster.height);
+  if (squares_) squares_->add(raster, place);
   for (const Run& run : raster.runs) {
     std::uint64_t* row = level_row(place.y + run.row, 0);
     for (int x = place.x + run.begin; x < place.x + run.end; ++x) row[x >> 6] |= std::uint64_t{1} << (x & 63);
@@ -101,12 +98,19 @@ bool Occupancy::find_lowest(const Raster& raster, int highest, Cell& place, int 
     for (int bit = 0; bit < bits; ++bit) reversed |= (k >> bit & 1) << (bits - 1 - bit);
     if (static_cast<int>(reversed) < count) order.push_back(reversed);
   }
+  const auto probes = squares_ ? probes_of(raster) : Probes{};
+  const auto next_word = [&](int word, int y) {
+    if (!squares_) return word;
+    ++work_;
+    return squares_->next_word(probes, y, word);
+  };
   const int longest_row = raster.runs[order[0]].row, longest = length(order[0]);
   for (int y = lowest; y <= std::min(highest, std::max(height_, lowest)); ++y) {
     if (y + longest_row < height_ && longest_free_[y + longest_row] < longest) continue;
-    for (int word = 0; word * 64 < positions; ++word) {
-      std::uint64_t blocked = blocked_word(raster, order, y, word);
+    for (int word = next_word(0, y); word * 64 < positions; word = next_word(word + 1, y)) {
+      std::uint64_t blocked = squares_ ? squares_->blocked(probes, y, word) : 0;
       if (positions - word * 64 < 64) blocked |= ~std::uint64_t{0} << (positions - word * 64);
+      if (blocked != ~std::uint64_t{0}) blocked |= blocked_word(raster, order, y, word);
       if (blocked == ~std::uint64_t{0}) continue;
       place = {word * 64 + std::countr_one(blocked), y};
       return true;

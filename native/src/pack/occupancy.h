@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "pack/free_squares.h"
 #include "pack/raster.h"
 
 namespace atlas_refine {
@@ -14,7 +16,8 @@ namespace atlas_refine {
 /// any length costs two lookups for 64 positions at once.
 class Occupancy {
  public:
-  explicit Occupancy(int width);
+  /// `many`: with an index of free squares, which pays where hundreds of rasters are to come.
+  explicit Occupancy(int width, bool many = false);
 
   int height() const { return height_; }       ///< rows up to the topmost taken cell
   std::int64_t work() const { return work_; }  ///< words looked at so far
@@ -40,6 +43,7 @@ class Occupancy {
   std::vector<std::uint64_t> taken_;  ///< [row][level]: bit x set where some
                                       ///< cell of [x, x + 2^level) is taken
   std::vector<int> longest_free_;     ///< of each row, in cells
+  std::optional<FreeSquares> squares_;
 };
 
 }  // namespace atlas_refine

@@ -19,6 +19,9 @@ namespace {
 // What is kept beyond the gap: the squeeze starts in a slightly larger box, and rounding to single precision must not lose it.
 // Rather too large a guess of the box, whose gap costs little, than a second round of packing.
 constexpr double kLikelyPe = 0.6;
+// The same with many charts, of which each round takes seconds: with half the gap around them they take this part of the box.
+constexpr int kManyCharts = 200;
+constexpr double kLikelyTaken = 0.8;
 constexpr double kMoreThanGap = 1.0065;
 // Where many charts ask for a wide gap, the box grows faster than the gap can follow it.
 constexpr int kRounds = 10;
@@ -82,6 +85,15 @@ Outline prepared_outline(const PlaceOptions& options, Chart& chart) {
   return outline;
 }
 
+/// The gap in the box that these charts are likely to need.
+double likely_gap(const std::vector<Chart>& charts, const Gap& gap, double box_aspect) {
+  const double area = uv_area(charts);
+  if (charts.size() <= kManyCharts) return gap.length(sides_of_area(area / kLikelyPe, box_aspect));
+  // kLikelyTaken side^2 = area + 0.5 gap perimeter, where gap = g side
+  const double g = gap.length(sides_of_area(1, box_aspect)), border = 0.25 * g * uv_perimeter(charts);
+  return g * (border + std::sqrt(border * border + kLikelyTaken * area)) / kLikelyTaken;
+}
+
 }  // namespace
 
 std::vector<Needle> needles_among(const std::vector<Chart>& charts) {
@@ -101,21 +113,18 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
   std::vector<Chart> placed = charts;
   std::vector<Outline> outlines;
   std::vector<double> areas;
-  double area = 0;
   for (Chart& chart : placed) {
     outlines.push_back(prepared_outline(options, chart));
     areas.push_back(uv_area(chart));
-    area += areas.back();
   }
   require_no_needles(charts);
   require_room(options.gap, options.box_aspect, charts.size());
-  PackOptions pack{.gap = 0,
+  PackOptions pack{.gap = likely_gap(charts, options.gap, options.box_aspect),
                    .box_aspect = options.box_aspect,
                    .target_pe = options.target_pe,
                    .seed = options.seed,
                    .threads = options.threads,
                    .tick = [&](double fraction) { monitor.report(fraction); }};
-  pack.gap = options.gap.length(sides_of_area(area / kLikelyPe, options.box_aspect));
   Packing packing = pack_charts(outlines, areas, pack);
   // A larger gap makes a larger box; a little more than asked each time ends this after one or two rounds.
   const auto wanted = [&] { return options.gap.length(packing.box.size()); };

@@ -12,6 +12,8 @@ namespace {
 // What slides slowly slides on the coarse charts, where that costs little: fine ones would stop short of it.
 constexpr double kLeastChange = 2e-5;
 constexpr double kNegligible = 1e-9;
+// With so many charts that takes as long as all the rest, for 1e-4 of E_d.
+constexpr std::size_t kThousands = 1000;
 
 /// The fine charts from where the coarse ones have ended.
 std::optional<PlacedCharts> carried_over(const CoarseAtlas& coarse, std::vector<Chart> charts, const Objective& objective,
@@ -52,8 +54,10 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   const auto coarse = coarsen(charts, objective, options.freedom);
   if (!coarse) return std::nullopt;
   SqueezeOptions patiently = options;
-  patiently.least_change = kLeastChange;
-  patiently.negligible = kNegligible;
+  if (charts.size() < kThousands) {
+    patiently.least_change = kLeastChange;
+    patiently.negligible = kNegligible;
+  }
   Squeezed out = squeeze_directly(restricted(*coarse, starts), coarse->objective, patiently, monitor);
   if (!out.outcome.holds() && !monitor.finishing()) return std::nullopt;
   const auto start = carried_over(*coarse, charts, objective, out.outcome);

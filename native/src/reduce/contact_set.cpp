@@ -37,21 +37,44 @@ ContactDerivatives derivatives(const ReduceModel& model, const ReduceState& stat
   return contact_derivatives(state.x[point], state.x[start], state.x[end], contact.floor_fraction * unit, contact.range);
 }
 
-/// Adds a block of the vertices' Hessian where their nodes have it.
-void add_block(const ReduceModel& model, int row, int column, Mat2 block, BlockSystem& system) {
-  if (hangs_on_box(model, row)) {
-    block.row(0) = model.lever[row].transpose() * block;
-    block.row(1).setZero();
+/// Adds the gradient and the Hessian by a contact's vertices where their nodes, and the box that takes them along, have it.
+void add_to_nodes(const ReduceModel& model, const std::array<int, 3>& vertices, const ContactDerivatives& d, double stiffness,
+                  BlockSystem& system) {
+  const bool with_box = !model.ride.empty() || !model.lever.empty();
+  for (int i = 0; i < 3; ++i) {
+    const int v = vertices[i];
+    const Vec2 gradient = stiffness * d.gradient[i];
+    const bool own = !hangs_on_box(model, v);
+    if (own) system.gradient[model.node[v]] += gradient;
+    Mat2 by_box = Mat2::Zero();
+    for (int j = 0; j < 3; ++j) {
+      const Mat2 block = stiffness * d.hessian[i][j];
+      if (own && !hangs_on_box(model, vertices[j])) system.matrix.add(model.node[v], model.node[vertices[j]], block);
+      if (with_box) by_box += block * moved_by_box(model, vertices[j]);
+    }
+    if (!with_box) continue;
+    const Mat2 moved = moved_by_box(model, v).transpose();
+    system.gradient[model.box_node()] += moved * gradient;
+    system.matrix.diagonal[model.box_node()] += moved * by_box;
+    if (own) system.matrix.add(model.node[v], model.box_node(), by_box);
   }
-  if (hangs_on_box(model, column)) {
-    block.col(0) = block * model.lever[column];
-    block.col(1).setZero();
-  }
-  system.matrix.add(model.node[row], model.node[column], block);
 }
 
-void add_gradient(const ReduceModel& model, int vertex, const Vec2& gradient, BlockSystem& system) {
-  system.gradient[model.node[vertex]] += hangs_on_box(model, vertex) ? Vec2(model.lever[vertex].dot(gradient), 0) : gradient;
+/// Adds what the walls do to a vertex: its own gradient and Hessian, and the Hessian by it and the box.
+void add_wall(const ReduceModel& model, int vertex, const Vec2& gradient, const Mat2& own, const Mat2& coupling,
+              BlockSystem& system) {
+  const int node = model.node[vertex], box_node = model.box_node();
+  system.gradient[node] += gradient;
+  system.matrix.diagonal[node] += own;
+  if (model.ride.empty()) {
+    system.matrix.add(node, box_node, coupling);
+    return;
+  }
+  const Mat2 along = moved_by_box(model, vertex);
+  const Mat2 mixed = along.transpose() * coupling;
+  system.gradient[box_node] += along.transpose() * gradient;
+  system.matrix.diagonal[box_node] += along.transpose() * own * along + mixed + mixed.transpose();
+  system.matrix.add(node, box_node, coupling + own * along);
 }
 
 /// The gap, or what is noted of the vertex and an edge around there.
@@ -184,10 +207,7 @@ void add_contacts(const ReduceModel& model, const ReduceState& state, const Cont
     if (d.value == 0) continue;
     const std::array<int, 3> v = vertices_of(model.boundary, contact.pair);
     unit_slope -= d.slope * contact.floor_fraction;
-    for (int i = 0; i < 3; ++i) {
-      add_gradient(model, v[i], stiffness * d.gradient[i], system);
-      for (int j = 0; j < 3; ++j) add_block(model, v[i], v[j], stiffness * d.hessian[i][j], system);
-    }
+    add_to_nodes(model, v, d, stiffness, system);
   }
   if (!model.has_box) return;
   Vec2 unit_gradient;
@@ -204,26 +224,26 @@ void add_walls(const ReduceModel& model, const ReduceState& state, double stiffn
   Vec2 sides = Vec2::Zero(), sides_stiff = Vec2::Zero();  // by width and height
   for (int v : model.boundary.vertex) {
     if (hangs_on_box(model, v)) continue;
-    const int node = model.node[v];
-    Mat2 coupling = Mat2::Zero();  // rows: vertex, columns: sides
+    Vec2 gradient;
+    Mat2 own = Mat2::Zero(), coupling = Mat2::Zero();  // rows: vertex; columns of the coupling: sides
     for (int axis = 0; axis < 2; ++axis) {
       const BarrierValue low = log_barrier(state.x[v][axis] / range);
       const BarrierValue high = log_barrier((state.box[axis] - state.x[v][axis]) / range);
-      system.gradient[node][axis] += stiffness * (low.slope - high.slope) / range;
+      gradient[axis] = stiffness * (low.slope - high.slope) / range;
       const double low_stiff = stiffness * low.curvature / (range * range);
       const double high_stiff = stiffness * high.curvature / (range * range);
-      system.matrix.diagonal[node](axis, axis) += low_stiff + high_stiff;
+      own(axis, axis) = low_stiff + high_stiff;
       sides[axis] += stiffness * high.slope / range;
       sides_stiff[axis] += high_stiff;
       coupling(axis, axis) = -high_stiff;
     }
-    if (coupling(0, 0) == 0 && coupling(1, 1) == 0) continue;
+    if (gradient.isZero(0) && own.isZero(0)) continue;
     if (aspect > 0) {
       coupling(0, 0) *= aspect;
       coupling(1, 0) = coupling(1, 1);
       coupling.col(1).setZero();
     }
-    system.matrix.add(node, box_node, coupling);
+    add_wall(model, v, gradient, own, coupling, system);
   }
   system.gradient[box_node] += on_box_node(model, sides);
   if (aspect == 0) {

@@ -224,10 +224,34 @@ Vec2 on_box_node(const ReduceModel& model, const Vec2& by_sides) {
   return model.aspect == 0 ? by_sides : Vec2(model.aspect * by_sides.x() + by_sides.y(), 0);
 }
 
+Mat2 moved_by_box(const ReduceModel& model, int vertex) {
+  Mat2 out = Mat2::Zero();
+  if (hangs_on_box(model, vertex))
+    out.col(0) = model.lever[vertex];
+  else if (!model.ride.empty() && model.aspect == 0)
+    out.diagonal() = model.ride[vertex];
+  else if (!model.ride.empty())
+    out.col(0) = Vec2(model.aspect * model.ride[vertex].x(), model.ride[vertex].y());
+  return out;
+}
+
+void ride_along(const ReduceState& state, ReduceModel& model) {
+  model.ride.resize(model.vertex_count());
+  for (std::size_t p = 0; p + 1 < model.first_vertex.size(); ++p) {
+    const auto begin = state.x.begin() + model.first_vertex[p], end = state.x.begin() + model.first_vertex[p + 1];
+    const Vec2 middle = std::accumulate(begin, end, Vec2(Vec2::Zero())) / static_cast<double>(end - begin);
+    std::fill(model.ride.begin() + model.first_vertex[p], model.ride.begin() + model.first_vertex[p + 1],
+              middle.cwiseQuotient(state.box));
+  }
+}
+
 void spread(const ReduceModel& model, std::vector<Vec2>& step) {
-  if (model.freedom.empty()) return;
-  for (int v = 0; v < model.vertex_count(); ++v)
-    step[v] = hangs_on_box(model, v) ? Vec2(step[model.box_node()].x() * model.lever[v]) : step[model.node[v]];
+  if (model.freedom.empty() && model.ride.empty()) return;
+  const Vec2 box = model.has_box ? step[model.box_node()] : Vec2(Vec2::Zero());
+  for (int v = model.vertex_count() - 1; v >= 0; --v) {  // a piece's node is its first vertex
+    const Vec2 own = hangs_on_box(model, v) ? Vec2(Vec2::Zero()) : step[model.node[v]];
+    step[v] = own + moved_by_box(model, v) * box;
+  }
 }
 
 ReduceState moved(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step, const StepBounds& bounds,

@@ -32,8 +32,11 @@ struct ReduceModel {
   Freedoms freedom;                         ///< one per piece; empty where all bend
   std::vector<int> node;                    ///< per vertex: what it moves with
   std::vector<Vec2> lever;  ///< per vertex of a fixed piece: its position / height of the box; empty where none is fixed
-  double fixed_share = 0;   ///< of the box, that fixed pieces cover
-  double far_arc = 0;       ///< borders of one piece between which the boundary is at least so long face each other
+  /// Per vertex of a piece that is not fixed: the middle of its piece, as a part of the box. Steps are told relative to where the
+  /// box takes it, so that damping, and having no contact, leave charts their place in the box. Empty where pieces are few.
+  std::vector<Vec2> ride;
+  double fixed_share = 0;                ///< of the box, that fixed pieces cover
+  double far_arc = 0;                    ///< borders of one piece between which the boundary is at least so long face each other
   std::vector<NearBorder> near_borders;  ///< by boundary vertices: pairs of one piece with less than the gap; sorted by the first
   Gap gap;
   double range = 0;  ///< the barrier is felt so far beyond the gap
@@ -74,6 +77,10 @@ inline bool moves_as_one(const ReduceModel& model, const PointEdge& pair) {
   const int piece = model.boundary.chart[pair.point];
   return piece == model.boundary.chart[pair.edge] && !bends(model.freedom, piece);
 }
+/// How a step of the box node moves the vertex, besides its own node's.
+Mat2 moved_by_box(const ReduceModel& model, int vertex);
+/// Tells steps relative to where the box takes the pieces of `state`.
+void ride_along(const ReduceState& state, ReduceModel& model);
 /// From a step of the nodes to one of all vertices, in place.
 void spread(const ReduceModel& model, std::vector<Vec2>& step);
 /// state + fraction * bounds * step; the box takes the smallest of the bounds.

@@ -22,6 +22,7 @@ constexpr int kTrialIterations = 60;  // after so many iterations
 constexpr double kTelling = 1;        // damping up to which a rise of the objective is the price of PE
 constexpr double kCrushed = 0.5;      // a rise under heavy damping that is not waited out
 constexpr int kThousands = 1000;      // with so many charts
+constexpr int kHundreds = 100;        // so many charts ride with the box: of fewer hardly any step is cut short
 constexpr int kPace = 30;             // iterations over which a pace is taken
 constexpr double kQuickening = 3;     // a pace may grow by so much
 constexpr double kWorthOfPace = 5;    // times the least change: what so many iterations have to bring,
@@ -84,6 +85,7 @@ Iterate first_iterate(const Task& task) {
 void assemble(ReduceModel& model, const ReduceState& state, double stiffness, TriangleSlots& slots, BlockSystem& system) {
   const ContactSet contacts = find_contacts(model, state);
   note_near_borders(state, contacts, model);
+  if (model.has_box && model.first_vertex.size() > kHundreds) ride_along(state, model);
   if (!covers(system.matrix, model, contacts)) {
     auto pairs = triangle_sides(model.triangles);
     const auto coupled = coupled_nodes(model, state, contacts);
