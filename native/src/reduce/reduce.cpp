@@ -9,6 +9,7 @@
 #include "reduce/contact_set.h"
 #include "reduce/model.h"
 #include "reduce/schedule.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -82,6 +83,7 @@ Iterate first_iterate(const Task& task) {
 
 /// Gradient of objective + stiffness * barrier and its projected Hessian. The pattern is analysed anew only where a contact asks.
 void assemble(ReduceModel& model, const ReduceState& state, double stiffness, TriangleSlots& slots, BlockSystem& system) {
+  const PhaseScope scope(Phase::Assemble);
   const ContactSet contacts = find_contacts(model, state);
   note_near_borders(state, contacts, model);
   if (!covers(system.matrix, model, contacts)) {
@@ -327,6 +329,7 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
     }
     const double energy = at.energy, distortion = at.distortion, pe = at.pe;
     advance(task, *step, schedule, at);
+    account_step(at.fraction);
     if (relaxing) adapt_margin(schedule, std::abs(std::log(at.pe / pe) - at.fraction * step->predicted_gain));
     adapt(schedule, task.view(at, schedule.margin), at.price, at.fraction);
     if (better(task, at, best)) best = at;
