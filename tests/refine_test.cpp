@@ -110,6 +110,12 @@ TEST(Refine, SqueezedReportsWhatWasBent) {
   EXPECT_EQ(faces, atlas.face_count());
   ASSERT_FALSE(result.timings.empty());
   for (const StageTime& time : result.timings) EXPECT_GE(time.seconds, 0);
+  double seconds = 0;
+  for (const PhaseTime& time : result.profile.phases) seconds += time.seconds;
+  EXPECT_GT(seconds, 0);
+  EXPECT_GE(result.profile.steps, 1);
+  EXPECT_GT(result.profile.mean_step, 0);
+  EXPECT_LE(result.profile.mean_step, 1);
 }
 
 TEST(Refine, APolygonMeshKeepsItsPolygons) {

@@ -222,6 +222,18 @@ void bind_repairs_and_groups(py::module_& module) {
       .field("gap", &GroupReport::gap);
 }
 
+void bind_profile(py::module_& module) {
+  ValueClass<Profile>(module, "Profile", "Where the time of a call went, and how its steps did.")
+      .property("phases",
+                [](const Profile& profile) {
+                  py::dict seconds;
+                  for (const PhaseTime& time : profile.phases) seconds[py::str(time.phase)] = time.seconds;
+                  return seconds;
+                })
+      .field("steps", &Profile::steps)
+      .field("mean_step", &Profile::mean_step);
+}
+
 void bind_refine_result(py::module_& module) {
   ValueClass<RefineResult>(module, "RefineResult", "A refined atlas with its certificate's figures.")
       .property("corner_uvs", [](const RefineResult& r) { return to_array(r.corner_uvs); })
@@ -250,11 +262,13 @@ void bind_refine_result(py::module_& module) {
       .field("repairs", &RefineResult::repairs)
       .field("fallbacks", &RefineResult::fallbacks)
       .field("warnings", &RefineResult::warnings)
-      .property("timings", [](const RefineResult& r) {
-        py::dict seconds;
-        for (const StageTime& time : r.timings) seconds[py::str(time.stage)] = time.seconds;
-        return seconds;
-      });
+      .property("timings",
+                [](const RefineResult& r) {
+                  py::dict seconds;
+                  for (const StageTime& time : r.timings) seconds[py::str(time.stage)] = time.seconds;
+                  return seconds;
+                })
+      .field("profile", &RefineResult::profile);
 }
 
 }  // namespace
@@ -287,6 +301,7 @@ void bind_results(py::module_& module) {
   bind_rectangle_report(module);
   bind_cut_report(module);
   bind_repairs_and_groups(module);
+  bind_profile(module);
   bind_refine_result(module);
 }
 

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <list>
 #include <memory>
@@ -42,6 +43,9 @@ enum Exit {
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
+
+/// Processor time of the whole program so far.
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Errors are exactly one line: `atlas-refine: <thing>: <what is wrong>`.
 int complain(const std::string& message, int exit_code) {
@@ -172,6 +176,7 @@ std::vector<FileReport> write_outputs(const CommandLine& line, const Collection&
                                       const std::vector<PackingPoint>& packing, Times& times) {
   const InterruptScope ask(OnInterrupt::Ask);
   const auto start = std::chrono::steady_clock::now();
+  const double used = processor_seconds();
   std::unique_ptr<PendingFolder> folder;
   if (line.is_collection()) folder = std::make_unique<PendingFolder>(line.output);
   std::list<PendingFile> pending;
@@ -183,6 +188,7 @@ std::vector<FileReport> write_outputs(const CommandLine& line, const Collection&
                        static_cast<int>(files.atlas_of(k).positions.size()), output.added_vertices});
   }
   times.write = seconds_since(start);
+  times.files += processor_seconds() - used;
   if (line.report) pending.emplace_back(*line.report, json_report(line, reports, result, times, words_of(files, result)));
   if (line.trade_off) add_trade_off(line, result, packing, pending);
   if (interrupted()) throw RefineError(ErrorCode::Cancelled, "write", "cancelled");
@@ -217,6 +223,7 @@ int run_refine(CommandLine line) {
     if (line.importance) line.options.importance = files.of_atlas(read_importance(*line.importance, files.face_count()));
     set_groups(line, files, line.options);
     times.read = seconds_since(start);
+  times.files = processor_seconds();
 
     const InterruptScope ask_and_exit(OnInterrupt::AskAndExit);
     const auto debug = pictures(line);

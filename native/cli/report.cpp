@@ -158,6 +158,12 @@ Json to_json(const GroupReport& group) {
           {"gap", to_json(group.gap)}};
 }
 
+Json to_json(const Profile& profile, double files) {
+  Json phases = Json::object();
+  for (const PhaseTime& time : profile.phases) phases[time.phase] = time.seconds;
+  return {{"phases", phases}, {"files", files}, {"steps", profile.steps}, {"mean_step", profile.mean_step}};
+}
+
 template <class Entry>
 Json list_of(const std::vector<Entry>& entries) {
   Json list = Json::array();
@@ -302,6 +308,7 @@ std::string json_report(const CommandLine& line, const std::vector<FileReport>& 
                {"fallbacks", result.fallbacks},
                {"warnings", result.warnings},
                {"timings", stages},
+               {"profile", to_json(result.profile, times.files)},
                {"seconds", {{"read", times.read}, {"refine", times.refine}, {"write", times.write}}}});
 }
 

@@ -11,11 +11,12 @@
 
 namespace atlas_refine::cli {
 
-/// Wall-clock seconds of one run of the program.
+/// Wall-clock seconds of one run of the program, and the processor's for its files.
 struct Times {
   double read = 0;
   double refine = 0;
   double write = 0;
+  double files = 0;
 };
 
 /// One input, and what became of it.

@@ -64,14 +64,19 @@ std::optional<PlacedCharts> own_layout(const Refinement& run, const std::vector<
 }
 
 /// The packer's layout and, where it is a valid start, the artist's: of a large atlas only the tighter one is tried.
-std::vector<PlacedCharts> starts_of(const Refinement& run, const std::optional<PlacedCharts>& own, const PlacedCharts& placed) {
+std::vector<PlacedCharts> starts_of(const Refinement& run, std::optional<PlacedCharts> own, PlacedCharts placed) {
   constexpr std::size_t kLarge = 30000;
-  if (!own) return {placed};
+  std::vector<PlacedCharts> out;
+  out.push_back(std::move(placed));
+  if (!own) return out;
   std::size_t triangles = 0;
   for (const Chart& chart : own->charts) triangles += chart.triangles.size();
-  if (triangles <= kLarge) return {placed, *own};
   const double aspect = run.options.box_aspect;
-  return {packing_efficiency(*own, aspect) > packing_efficiency(placed, aspect) ? *own : placed};
+  if (triangles <= kLarge)
+    out.push_back(std::move(*own));
+  else if (packing_efficiency(*own, aspect) > packing_efficiency(out.front(), aspect))
+    out.front() = std::move(*own);
+  return out;
 }
 
 PlacedCharts place(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap,
@@ -294,7 +299,8 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
   std::optional<PlacedCharts> own;
   if (keeps_place && !options.align_axes && certify_charts(pieces, {}, freedom).valid())
     own = own_layout(run, pieces, freedom, gaps.front());
-  squeeze_into(run, starts_of(run, own, placed), freedom, gaps, out);
+  pieces = {};  // a million triangles' copies are a good part of the memory
+  squeeze_into(run, starts_of(run, std::move(own), std::move(placed)), freedom, gaps, out);
   return out;
 }
 

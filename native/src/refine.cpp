@@ -21,6 +21,7 @@
 #include "report/tiles.h"
 #include "report/wished_edges.h"
 #include "support/monitor.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -170,6 +171,12 @@ RefineResult refine_usable(const Atlas& atlas, const RefineOptions& options, Mon
   return result;
 }
 
+Profile profile_of(const Account& account) {
+  Profile out{.steps = account.steps, .mean_step = account.steps > 0 ? account.fractions / account.steps : 0};
+  for (int k = 0; k < kPhases; ++k) out.phases.push_back({to_string(static_cast<Phase>(k)), account.seconds[k]});
+  return out;
+}
+
 /// Where some chart is locked, or where that is asked, the box is the texture, which is square unless said otherwise. A point of
 /// the trade-off is wanted whatever its distortion.
 RefineOptions settled(RefineOptions options) {
@@ -188,6 +195,7 @@ RefineResult refine(const Atlas& atlas, const RefineOptions& asked, const Progre
   const RefineOptions options = settled(asked);
   RefineResult result;
   run_monitored(progress, [&](Monitor& monitor) {
+    take_account();  // what the thread has done before is not of this call
     Journal journal(monitor, debug, options.box_aspect);
     result = refine_usable(atlas, options, monitor, journal);
     journal.end_stage();
@@ -196,6 +204,7 @@ RefineResult refine(const Atlas& atlas, const RefineOptions& asked, const Progre
     result.fallbacks = std::move(journal.fallbacks);
     result.warnings = std::move(journal.warnings);
     result.timings = std::move(journal.timings);
+    result.profile = profile_of(take_account());
   });
   return result;
 }

@@ -13,6 +13,11 @@ code 1 where a limit is not kept or a result is not valid.
 --blender: instead the files of uv/atlas-clean inside Blender at 0.80 of a square, beside Blender's own Pack Islands (exact shapes,
 any rotation) at the same margin; blender.json, blender.md.
 
+--profile: instead where the processor's time of every file and goal goes: order, factor, solve, assembly, contacts, line search, packing,
+layout, certificate, files, and how the Newton steps did; profile.json.
+
+--peers: instead ten files at 0.80 beside what Blender's Pack Islands and xatlas pack: the table of README.md; peers.md.
+
 --against COMMIT: that commit is built beside this tree, both programs run one after the other on every file, and what differs is
 the table (against.json, against.md); exit code 1 where a file is no longer valid and at its bound, or has more E_d.
 
@@ -32,6 +37,8 @@ from pathlib import Path
 import against
 import in_blender
 import needed
+import peers
+import profiles
 import real
 import studies
 import table
@@ -40,6 +47,7 @@ from bad_input import bad_input_lines
 from check_atlas import aspect_of
 from measure_file import Goal, Row, count_triangles, measure_file, outputs_differ
 from meshes import FOLDERS, REAL_FOLDERS, REQUIRED_FOLDERS, NoMeshesError, folder_meshes, mesh_root, own_meshes
+from subdivide import subdivided
 
 ROOT = Path(__file__).resolve().parents[2]
 GOALS = [Goal(0.80), Goal(0.90), Goal(0.80, "square"), Goal(0.85), Goal(0.95)]
@@ -69,10 +77,15 @@ def selected_meshes(arguments):
     else:
         usual = REAL_FOLDERS if arguments.real else ["atlas-clean"] if arguments.blender else FOLDERS
         folders = FOLDERS if arguments.study else arguments.folders or usual
+        folders = peers.FILES if arguments.peers else folders
         found = folder_meshes(mesh_root(ROOT.parent / "shared"), folders)
+        if arguments.peers:
+            found = {folder: [path for path in paths if path.stem in peers.FILES[folder]] for folder, paths in found.items()}
     for folder, paths in found.items():
         kept = [path for path in paths if fnmatch.fnmatch(path.stem, arguments.files)]
         kept = [path for path in kept if not arguments.quick or count_triangles(path) <= QUICK_TRIANGLES]
+        if arguments.subdivide:
+            kept = [subdivided(path, arguments.subdivide, arguments.cache / "subdivided" / folder) for path in kept]
         found[folder] = sorted(kept, key=lambda path: (path.stat().st_size, path.name))
     if not any(found.values()):
         raise NoMeshesError("none of those that are there is asked for")
@@ -179,6 +192,16 @@ def run_needed(arguments):
     return needed.run_needed(arguments.build, each_mesh(arguments), at, arguments.jobs, arguments.out)
 
 
+def run_profiles(arguments):
+    asked = [(folder, path, goals_of(arguments, folder)) for folder, path in each_mesh(arguments)]
+    return profiles.run_profiles(arguments.build, asked, arguments.jobs, arguments.out)
+
+
+def run_peers(arguments):
+    at = (arguments.bounds or GOALS)[0]
+    return peers.run_peers(arguments.build, arguments.found, at, arguments.cache, arguments.out)
+
+
 def run_bad_input(arguments):
     lines, wrong = bad_input_lines(arguments.build / "atlas-refine")
     print("\n".join(lines))
@@ -202,6 +225,7 @@ def parsed():
     parser.add_argument("--seams", nargs="+", choices=["none", "rectangles"], default=["none", "rectangles"])
     parser.add_argument("--files", default="*", help="pattern of file names, without .obj")
     parser.add_argument("--jobs", type=int, default=1, help="files at a time; timings are honest only with 1")
+    parser.add_argument("--subdivide", type=int, default=0, metavar="N", help="every triangle first divided into 4, N times")
     parser.add_argument("--quick", action="store_true", help=f"only files of at most {QUICK_TRIANGLES} triangles")
     parser.add_argument("--against", metavar="COMMIT", help="instead: this tree compared with a commit [at 0.8, both roads]")
     parser.add_argument(
@@ -209,6 +233,8 @@ def parsed():
     )
     parser.add_argument("--new-options", type=options, default=(), help="further options of this tree's program")
     parser.add_argument("--needed", action="store_true", help="instead: seams none, rectangles, and needed within limits")
+    parser.add_argument("--profile", action="store_true", help="instead: where the time goes [at 0.8, both roads]")
+    parser.add_argument("--peers", action="store_true", help="instead: beside Blender's Pack Islands and xatlas")
     parser.add_argument("--blender", action="store_true", help="instead: inside Blender, beside its own Pack Islands")
     parser.add_argument("--determinism", action="store_true", help="instead: the same bits from 2 runs and from 1 and 2 threads")
     parser.add_argument("--bad-input", action="store_true", help="instead: exit codes and messages of bad input")
@@ -221,7 +247,9 @@ def parsed():
     arguments = parser.parse_args()
     if arguments.meshes and (arguments.folders or arguments.study):
         parser.error("--meshes: not with --folders or --study, which are about the test meshes")
-    if arguments.against and not arguments.bounds:
+    if arguments.peers and arguments.folders:
+        parser.error("--peers: not with --folders; it has ten files of its own, or those of --meshes")
+    if (arguments.against or arguments.profile) and not arguments.bounds:
         arguments.bounds = [Goal(0.80)]
     return arguments
 
@@ -237,6 +265,10 @@ def run_asked(arguments):
         return run_real(arguments)
     if arguments.needed:
         return run_needed(arguments)
+    if arguments.profile:
+        return run_profiles(arguments)
+    if arguments.peers:
+        return run_peers(arguments)
     if arguments.blender:
         return run_blender(arguments)
     if arguments.study:

@@ -142,6 +142,8 @@ def test_report(program, tmp_path):
     for key in ("bound_met", "price", "iterations", "charts", "repairs", "warnings", "timings", "gap"):
         assert key in told
     assert set(told["seconds"]) == {"read", "refine", "write"}
+    assert told["profile"]["files"] > 0
+    assert told["profile"]["phases"]["certificate"] > 0
 
 
 def test_cut_is_told(program, tmp_path):

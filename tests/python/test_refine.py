@@ -158,7 +158,8 @@ def test_a_result_shows_all_its_figures():
     result = atlas_refine.refine(*shapes.tight())
     fields = result.as_dict()
     assert {"corner_uvs", "cut", "intervention", "bound_met", "before", "after", "gap", "price", "iterations"} < set(fields)
-    assert {"ended", "charts", "pieces", "repairs", "fallbacks", "warnings", "timings"} < set(fields)
+    assert {"ended", "charts", "pieces", "repairs", "fallbacks", "warnings", "timings", "profile"} < set(fields)
+    assert result.profile.phases["certificate"] > 0
     assert repr(result.after).startswith("Measures(pe=")
     with pytest.raises(AttributeError):
         result.after.pe = 1.0

@@ -249,6 +249,15 @@ class GroupReport:
     def gap(self) -> Gap: ...
     def as_dict(self) -> dict[str, Any]: ...
 
+class Profile:
+    @property
+    def phases(self) -> dict[str, float]: ...  # processor seconds of each kind of work: "order", "factor", ..., "other"
+    @property
+    def steps(self) -> int: ...  # Newton steps under contact, on coarse charts and for forecasts as well
+    @property
+    def mean_step(self) -> float: ...  # the mean part of them that was taken
+    def as_dict(self) -> dict[str, Any]: ...
+
 class RefineResult:
     @property
     def corner_uvs(self) -> NDArray[np.float64]: ...  # (C, 2) of `cut` or, without it, of the input; a new array
@@ -298,6 +307,8 @@ class RefineResult:
     def warnings(self) -> list[str]: ...
     @property
     def timings(self) -> dict[str, float]: ...  # seconds per stage, all attempts and groups together
+    @property
+    def profile(self) -> Profile: ...
     def as_dict(self) -> dict[str, Any]: ...
 
 class Job:

@@ -121,6 +121,19 @@ struct StageTime {
   double seconds = 0;
 };
 
+/// Processor time of one kind of work, of all threads together.
+struct PhaseTime {
+  std::string phase;  ///< "order", "factor", "solve", "assemble", "contacts", "line_search", "pack", ..., "other"
+  double seconds = 0;
+};
+
+/// Where the time of a call went, and how the steps under contact did. It depends on the machine, and nothing else on it.
+struct Profile {
+  std::vector<PhaseTime> phases;  ///< all of them, always in the same order
+  int steps = 0;                  ///< Newton steps under contact: on fine and on coarse charts, forecasts too
+  double mean_step = 0;           ///< the mean part of them that was taken; 0 without any
+};
+
 /// A vertex that was added: a point of one input face, given by three of its corners.
 struct NewVertex {
   std::array<int, 3> corners;  ///< input corners, all of one face
@@ -174,6 +187,7 @@ struct RefineResult {
   std::vector<std::string> fallbacks;  ///< one line each: what was tried first, and what was done instead
   std::vector<std::string> warnings;   ///< one line each: what a user should know of the result
   std::vector<StageTime> timings;      ///< in order; what a stage took in several groups or attempts is one sum
+  Profile profile;
 };
 
 }  // namespace atlas_refine

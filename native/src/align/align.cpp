@@ -16,6 +16,7 @@
 #include "geometry/tutte.h"
 #include "measure/distortion.h"
 #include "support/parallel.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -308,6 +309,7 @@ AxisAlignedChart align(const Chart& source, const SidePrices& prices, double sig
 }  // namespace
 
 std::vector<AxisAlignedChart> align_charts(const std::vector<Chart>& charts, const AlignOptions& options, Monitor& monitor) {
+  const PhaseScope scope(Phase::Align);
   std::vector<std::optional<AxisAlignedChart>> slots(charts.size());
   std::atomic<int> done = 0;
   parallel_ranges(static_cast<int>(charts.size()), options.threads, 1, [&](int begin, int end) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "coarsen/prolong.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -38,6 +39,7 @@ double edge_length(double area, double triangles) { return std::sqrt(4 / std::sq
 }  // namespace
 
 std::optional<CoarseAtlas> coarsen(const std::vector<Chart>& charts, const Objective& objective, const Freedoms& freedom) {
+  const PhaseScope scope(Phase::Coarsen);
   const int vertices = bending_vertices(charts, freedom);
   if (vertices < kSmall) return std::nullopt;
   const double spacing = edge_length(surface_of_bending(charts, freedom), kInside);
@@ -76,6 +78,7 @@ PlacedCharts restricted(const CoarseAtlas& coarse, const PlacedCharts& fine) {
 std::optional<std::vector<std::vector<Vec2>>> prolonged(const CoarseAtlas& coarse, const std::vector<Chart>& fine,
                                                         const Objective& objective,
                                                         const std::vector<std::vector<Vec2>>& coarse_uvs) {
+  const PhaseScope scope(Phase::Coarsen);
   std::vector<std::vector<Vec2>> out;
   std::size_t first = 0;
   for (std::size_t c = 0; c < fine.size(); first += element_count(fine[c]), ++c) {

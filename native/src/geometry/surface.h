@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,26 +17,30 @@ struct RestTriangle {
   double area = 0;     ///< > 0
 };
 
-/// The true shapes of a chart's triangles, in their order. Immutable: never weighted, never scaled. What distortion is reduced
-/// against is an Objective (solve/objective.h), which may weight and scale; E_d is measured here.
+/// The true shapes of a chart's triangles, in their order. Immutable: never weighted, never scaled, and shared by all copies, for
+/// stages copy charts whose UVs alone differ. What distortion is reduced against is an Objective (solve/objective.h), which may
+/// weight and scale; E_d is measured here.
 class Surface {
  public:
   Surface() = default;
-  explicit Surface(std::vector<RestTriangle> triangles) : triangles_(std::move(triangles)) {}
+  explicit Surface(std::vector<RestTriangle> triangles)
+      : triangles_(std::make_shared<const std::vector<RestTriangle>>(std::move(triangles))) {}
 
-  std::size_t size() const { return triangles_.size(); }
-  const RestTriangle& operator[](std::size_t triangle) const { return triangles_[triangle]; }
-  auto begin() const { return triangles_.begin(); }
-  auto end() const { return triangles_.end(); }
+  std::size_t size() const { return all().size(); }
+  const RestTriangle& operator[](std::size_t triangle) const { return (*triangles_)[triangle]; }
+  auto begin() const { return all().begin(); }
+  auto end() const { return all().end(); }
 
   double area() const {
     double sum = 0;
-    for (const RestTriangle& triangle : triangles_) sum += triangle.area;
+    for (const RestTriangle& triangle : all()) sum += triangle.area;
     return sum;
   }
 
  private:
-  std::vector<RestTriangle> triangles_;
+  std::span<const RestTriangle> all() const { return triangles_ ? std::span(*triangles_) : std::span<const RestTriangle>(); }
+
+  std::shared_ptr<const std::vector<RestTriangle>> triangles_;
 };
 
 }  // namespace atlas_refine

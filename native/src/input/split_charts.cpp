@@ -14,6 +14,7 @@
 #include "input/settle_noise.h"
 #include "input/surfaces.h"
 #include "support/disjoint_sets.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 
@@ -167,6 +168,7 @@ std::vector<std::vector<int>> boundary_loops(const Chart& chart) {
 }  // namespace
 
 ChartSet split_charts(const Atlas& atlas, Joining joining, const std::vector<int>& groups) {
+  const PhaseScope scope(Phase::Input);
   check_atlas(atlas);
   EdgeJoins joins = join_edges(atlas, joining, groups);
   std::vector<std::array<int, 2>> parted;

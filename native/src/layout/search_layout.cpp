@@ -11,6 +11,7 @@
 #include "layout/pack_rectangles.h"
 #include "measure/distortion.h"
 #include "support/parallel.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -274,6 +275,7 @@ Layout search_round(const Round& round, const LayoutOptions& options, Monitor& m
 
 Layout search_layout(const std::vector<AxisAlignedChart>& aligned, const std::vector<Chart>& sources,
                      const LayoutOptions& options, Monitor& monitor) {
+  const PhaseScope scope(Phase::Layout);
   const std::vector<Decomposition> boxes = boxes_of(aligned, sources);
   Layout best;
   for (std::size_t g = 0; g < options.gaps.size(); ++g) {

@@ -14,6 +14,7 @@
 
 #include "geometry/predicates.h"
 #include "measure/boundary_edges.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 
@@ -210,6 +211,7 @@ void check_windings(const std::vector<Chart>& charts, const Borders& borders, Va
 }  // namespace
 
 Validity certify_charts(const std::vector<Chart>& charts, const std::vector<std::vector<int>>& points, const Freedoms& freedom) {
+  const PhaseScope scope(Phase::Certificate);
   Validity validity;
   check_triangles(charts, freedom, validity);
   std::vector<BoundaryEdge> edges = boundary_edges(charts);

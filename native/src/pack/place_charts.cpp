@@ -12,6 +12,7 @@
 #include "pack/pack_charts.h"
 #include "pack/pack_in_frame.h"
 #include "pack/straight_border.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -110,6 +111,7 @@ std::vector<Needle> needles_among(const std::vector<Chart>& charts) {
 }
 
 std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOptions& options, Monitor& monitor) {
+  const PhaseScope scope(Phase::Pack);
   std::vector<Chart> placed = charts;
   std::vector<Outline> outlines;
   std::vector<double> areas;
@@ -141,6 +143,7 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
 
 std::optional<PlacedCharts> place_around(const std::vector<Chart>& charts, const Freedoms& freedom, const PlaceOptions& options,
                                          Monitor& monitor) {
+  const PhaseScope scope(Phase::Pack);
   const Vec2 frame(options.box_aspect, 1);
   PlacedCharts out{.charts = charts};
   std::vector<Outline> outlines, obstacles;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "solve/contact_barrier.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -112,6 +113,7 @@ std::vector<NearBorder> measure_near_borders(const ReduceModel& model) {
 }
 
 ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step) {
+  const PhaseScope scope(Phase::Contacts);
   const Boundary& boundary = model.boundary;
   const double unit = gap_unit(model, state.box);
   ContactSet found;
@@ -166,6 +168,7 @@ double least_slack(const ReduceModel& model, const ReduceState& state) {
 }
 
 std::vector<std::pair<int, int>> coupled_nodes(const ReduceModel& model, const ReduceState& state, const ContactSet& contacts) {
+  const PhaseScope scope(Phase::Contacts);
   const Boundary& boundary = model.boundary;
   std::vector<std::pair<int, int>> pairs;
   const auto add_nodes = [&](int a, int b) {

@@ -11,6 +11,7 @@
 #include "measure/distortion.h"
 #include "reduce/contact_set.h"
 #include "solve/symmetric_dirichlet.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -272,6 +273,7 @@ ReduceState moved(const ReduceModel& model, const ReduceState& state, const std:
 }
 
 StepBounds free_step(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step) {
+  const PhaseScope scope(Phase::LineSearch);
   const int count = model.vertex_count();
   double longest = 0;
   for (int v = 0; v < count; ++v) longest = std::max(longest, step[v].norm());

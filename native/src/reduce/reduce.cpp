@@ -9,6 +9,7 @@
 #include "reduce/contact_set.h"
 #include "reduce/model.h"
 #include "reduce/schedule.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -83,6 +84,7 @@ Iterate first_iterate(const Task& task) {
 
 /// Gradient of objective + stiffness * barrier and its projected Hessian. The pattern is analysed anew only where a contact asks.
 void assemble(ReduceModel& model, const ReduceState& state, double stiffness, TriangleSlots& slots, BlockSystem& system) {
+  const PhaseScope scope(Phase::Assemble);
   const ContactSet contacts = find_contacts(model, state);
   note_near_borders(state, contacts, model);
   if (model.has_box && model.first_vertex.size() > kHundreds) ride_along(state, model);
@@ -330,6 +332,7 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
     }
     const double energy = at.energy, distortion = at.distortion, pe = at.pe;
     advance(task, *step, schedule, at);
+    account_step(at.fraction);
     if (relaxing) adapt_margin(schedule, std::abs(std::log(at.pe / pe) - at.fraction * step->predicted_gain));
     adapt(schedule, task.view(at, schedule.margin), at.price, at.fraction);
     counters = counted(task, {at.energy - energy, at.distortion - distortion, at.pe - pe}, at, schedule, counters);

@@ -16,6 +16,7 @@
 #include "report/kept_faces.h"
 #include "report/locked.h"
 #include "report/texture.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -250,6 +251,7 @@ Vec2 as_stored(const Vec2& uv, Stored stored) {
 }
 
 CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap& gap, const RefineOptions& options) {
+  const PhaseScope scope(Phase::Certificate);
   const bool cut = !atlas.seams.empty() || !atlas.points.empty();
   CertifiedAtlas out{.stored = meshes_of(atlas)};
   out.uvs = stored_uvs(out.stored, atlas.frame, input.origin, options);

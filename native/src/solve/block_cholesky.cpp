@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "support/profile.h"
+
 namespace atlas_refine {
 namespace {
 
@@ -49,6 +51,7 @@ Renumbered renumber(const std::vector<int>& row_start, const std::vector<int>& r
 }  // namespace
 
 void BlockCholesky::analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node) {
+  const PhaseScope scope(Phase::Order);
   set_pattern(node_count, edges);
   const bool same_nodes = static_cast<int>(order_.size()) == node_count && last_node_ == last_node;
   last_node_ = last_node;
@@ -57,6 +60,7 @@ void BlockCholesky::analyse(int node_count, const std::vector<std::pair<int, int
     lost_work_ += factor_.work() - work_when_found_;
     if (lost_work_ <= kOrderWork * (node_count + static_cast<double>(row_nodes_.size()))) return;
   }
+  factor_ = {};  // whose memory the search for an order may have
   order_ = minimum_degree_order();
   analyse_factor();
   work_when_found_ = factor_.work();
@@ -137,11 +141,18 @@ std::vector<int> BlockCholesky::minimum_degree_order() const {
   return order;
 }
 
-bool BlockCholesky::factor(int threads) { return factor_.factor({diagonal, off_diagonal}, threads); }
+bool BlockCholesky::factor(int threads) {
+  const PhaseScope scope(Phase::Factor);
+  return factor_.factor({diagonal, off_diagonal}, threads);
+}
 
-void BlockCholesky::solve(std::vector<Vec2>& values) const { factor_.solve(std::array{&values}); }
+void BlockCholesky::solve(std::vector<Vec2>& values) const {
+  const PhaseScope scope(Phase::Solve);
+  factor_.solve(std::array{&values});
+}
 
 void BlockCholesky::solve(std::vector<Vec2>& first, std::vector<Vec2>& second) const {
+  const PhaseScope scope(Phase::Solve);
   factor_.solve(std::array{&first, &second});
 }
 

@@ -38,7 +38,7 @@ void add_update(const double* update, std::span<const int> places, int begin, in
 
 double* Buffer::reserve(std::size_t size) {
   if (size > size_) {
-    values_.reset();
+    values_.reset();  // before the new ones are there
     values_ = std::make_unique_for_overwrite<double[]>(size);
     size_ = size;
   }

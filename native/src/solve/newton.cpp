@@ -8,6 +8,7 @@
 #include "geometry/collision.h"
 #include "solve/symmetric_dirichlet.h"
 #include "support/parallel.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -38,6 +39,7 @@ void BlockSystem::set_zero() {
 
 std::vector<std::pair<int, int>> triangle_sides(const std::vector<Triangle>& triangles) {
   std::vector<std::pair<int, int>> sides;
+  sides.reserve(3 * triangles.size());
   for (const Triangle& t : triangles) {
     for (int k = 0; k < 3; ++k) sides.emplace_back(t[k], t[(k + 1) % 3]);
   }
@@ -46,6 +48,7 @@ std::vector<std::pair<int, int>> triangle_sides(const std::vector<Triangle>& tri
 
 TriangleSlots triangle_slots(const BlockCholesky& matrix, const std::vector<Triangle>& triangles) {
   TriangleSlots slots;
+  slots.reserve(triangles.size());
   for (const Triangle& t : triangles)
     slots.push_back({matrix.slot(t[0], t[1]), matrix.slot(t[1], t[2]), matrix.slot(t[2], t[0])});
   return slots;
@@ -65,6 +68,7 @@ double dirichlet_energy(const Objective& objective, const std::vector<Triangle>&
 std::vector<double> triangle_energies(const Objective& objective, const std::vector<Triangle>& triangles,
                                       const std::vector<Vec2>& x) {
   std::vector<double> energies;
+  energies.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Triangle& v = triangles[t];
     energies.push_back(symmetric_dirichlet(jacobian(objective.inverse_edges[t], x[v[0]], x[v[1]], x[v[2]])));
@@ -74,6 +78,7 @@ std::vector<double> triangle_energies(const Objective& objective, const std::vec
 
 void add_dirichlet(const Objective& objective, const std::vector<Triangle>& triangles, const TriangleSlots& slots,
                    const std::vector<Vec2>& x, int threads, BlockSystem& system) {
+  const PhaseScope scope(Phase::Assemble);
   constexpr int kBlock = 4096;  // bounds the buffer
   const int count = static_cast<int>(triangles.size());
   std::vector<TriangleDerivatives> buffer(std::min(kBlock, count));
@@ -122,6 +127,7 @@ double dot(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
 
 double flip_free_fraction(const std::vector<Triangle>& triangles, const std::vector<Vec2>& x, const std::vector<Vec2>& step,
                           double limit, double short_of) {
+  const PhaseScope scope(Phase::LineSearch);
   const auto moving = [&](int v) { return Moving{x[v], step[v]}; };
   for (const Triangle& t : triangles) limit = std::min(limit, short_of * flip_time(moving(t[0]), moving(t[1]), moving(t[2])));
   return limit;

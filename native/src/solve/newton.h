@@ -10,6 +10,7 @@
 #include "geometry/chart.h"
 #include "solve/block_cholesky.h"
 #include "solve/objective.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 
@@ -69,6 +70,7 @@ struct StepBounds {
 /// too high, `back_off` times as large where it is infinite, a state that is not allowed. Its last call is the accepted one.
 template <class MeritAt>
 double line_search(double limit, double merit, double slope, MeritAt&& merit_at, double back_off = 0.5) {
+  const PhaseScope scope(Phase::LineSearch);
   constexpr double kDecrease = 1e-4;
   constexpr double kLeastPart = 1e-9;
   for (double fraction = limit; fraction > kLeastPart * limit;) {

@@ -10,7 +10,8 @@ int resolve_threads(int requested);
 
 /// Calls body(begin, end) on disjoint ranges that cover [0, count); returns when all are done. The ranges depend on the
 /// number of threads, so the body must treat its indices independently. The first exception is rethrown.
-/// Runs in the calling thread where `threads` is 1 or `count` is below `grain`.
+/// Runs in the calling thread where `threads` is 1 or `count` is below `grain`; the calling thread's account (support/profile.h)
+/// is that of all.
 void parallel_ranges(int count, int threads, int grain, const std::function<void(int, int)>& body);
 
 }  // namespace atlas_refine
