@@ -61,13 +61,14 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
     longest = std::max(longest, length_of(outline) + options.gap);
   }
   Grid grid;
-  grid.cells_per_side = std::clamp(256 * std::sqrt(n / 60.0), 256.0, kMostCells);
+  const double fewest = options.quick ? 128.0 : 256.0;
+  grid.cells_per_side = std::clamp(256 * std::sqrt(n / 60.0), fewest, kMostCells);
   grid.cell = std::max(std::sqrt(dilated_area / 0.8), longest / kLongestChart) / grid.cells_per_side;
   grid.charts.resize(n);
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       watch.poll(static_cast<double>(i - begin) / (end - begin));
-      for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : 2))
+      for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : options.quick ? 4 : 2))
         grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options.gap, grid.cell));
     }
   });
@@ -134,7 +135,7 @@ class Search {
     const int n = static_cast<int>(outlines_.size());
     start_greedily(n > kManyCharts ? std::clamp(2000 / n, 1, 8) : std::clamp(4000 / n, 64, 400));
     if (least_area_ > enough_ && n <= kTooManyToCompact) compact_best(1, 0.3, 0.4);
-    if (least_area_ > enough_ && n <= kManyCharts) {
+    if (!options_.quick && least_area_ > enough_ && n <= kManyCharts) {
       shrink_best();
       if (least_area_ > enough_) compact_best(kFinalists, 0.9, 1);
     }

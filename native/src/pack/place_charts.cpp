@@ -114,6 +114,7 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
                    .target_pe = options.target_pe,
                    .seed = options.seed,
                    .threads = options.threads,
+                   .quick = options.quick,
                    .tick = [&](double fraction) { monitor.report(fraction); }};
   pack.gap = options.gap.length(sides_of_area(area / kLikelyPe, options.box_aspect));
   Packing packing = pack_charts(outlines, areas, pack);
