@@ -26,6 +26,8 @@ LEVELS = [
     ["cut_along_edges"],
     ["rectangles", "whole"],
     ["cut_trials"],
+    ["cut_outcomes"],
+    ["cut_to_limit"],
     ["cut_as_needed"],
     ["one_atlas"],
     ["refine", "group_by_tile", "inspect"],

@@ -42,6 +42,7 @@ CutTrials::CutTrials(const Refinement& run, const ProgressRange& range)
       whole_(whole_charts(run, range)),
       prices_(price_sides(run.input.atlas, run.input.set, run.options)),
       boundary_(boundary_on_surface(meshes_of(whole_.atlas))) {
+  for (const Piece& piece : whole_.atlas.pieces) area_ += piece.mesh.surface.area();
   prices_.resize(whole_.atlas.pieces.size());
 }
 
@@ -64,6 +65,9 @@ SqueezedTrial CutTrials::without_cuts(const ProgressRange& range) {
   const Objective objective = goal_of(run_.input.set.charts, out.solution.atlas, run_.options);
   const double energy = reduce_distortion({.charts = charts, .objective = objective, .max_iterations = 0}).energy;
   if (std::isfinite(out.trial.distortion)) offset_ = out.trial.distortion - energy;
+  const double rough = out.solution.rough_energy;
+  out.trial.foreseen = rough > 0 ? offset_ + rough : out.trial.distortion;
+  out.trial.losses = losses(whole_.atlas, out.solution);
   return out;
 }
 
@@ -106,13 +110,16 @@ std::optional<CutAtlas> CutTrials::in_place(const std::vector<ChartCuts>& charts
   const Solution& solution = present.solution;
   if (solution.end.box.isZero()) return std::nullopt;  // only moved
   const Vec2 box = solution.atlas.frame.isZero() ? solution.end.box : solution.atlas.frame;
-  CutAtlas out = lay_apart(atlas, solution.atlas, run_.input.set.charts, solution.gap.length(box));
-  if (!part_along_cuts(charts, out)) return std::nullopt;
-  const Freedoms freedom = freedom_of_pieces(freedom_, out);
-  const std::vector<Chart> pieces = meshes_of(out);
-  if (!certify_charts(pieces, points_in_space(out, run_.input.set.points), freedom).valid()) return std::nullopt;
-  if (gap_between_charts(pieces, freedom) <= solution.gap.length(box)) return std::nullopt;
-  return out;
+  const double gap = solution.gap.length(box);
+  const Freedoms freedom = freedom_of_pieces(freedom_, atlas);
+  for (const double apart : {2.0, 6.0}) {  // times the gap: a cut at a slant needs more
+    CutAtlas out = lay_apart(atlas, solution.atlas, run_.input.set.charts, apart * gap);
+    if (!part_along_cuts(charts, out)) return std::nullopt;
+    const std::vector<Chart> pieces = meshes_of(out);
+    if (!certify_charts(pieces, points_in_space(out, run_.input.set.points), freedom).valid()) continue;
+    if (gap_between_charts(pieces, freedom) > gap) return out;
+  }
+  return std::nullopt;
 }
 
 std::optional<SqueezedTrial> CutTrials::squeezed(const Trial& trial, const ProgressRange& range) const {
@@ -122,16 +129,17 @@ std::optional<SqueezedTrial> CutTrials::squeezed(const Trial& trial, const Progr
   Journal& journal = run_.journal;
   const Journal::Mark before = journal.mark();
   std::optional<Solution> solution;
-  if (trial.in_place_of) {
-    journal.begin_stage("squeeze", range);
-    solution = squeeze_in_place(run_, *in_place(*charts, *atlas, *trial.in_place_of), trial.in_place_of->solution);
-  } else {
-    solution = place_and_squeeze_cut(run_, *atlas, range);
-  }
+  journal.begin_stage("squeeze", range);
+  const auto laid = trial.in_place_of ? in_place(*charts, *atlas, *trial.in_place_of) : std::nullopt;
+  if (trial.forecast) solution = squeeze_as_forecast(run_, laid ? *laid : *atlas, *trial.forecast);
+  if (!solution)
+    solution = laid ? squeeze_in_place(run_, *laid, trial.in_place_of->solution) : place_and_squeeze_cut(run_, *atlas, range);
   std::optional<SqueezedTrial> out;
   if (solution) {
     out = SqueezedTrial{.trial = trial, .solution = std::move(*solution)};
+    out->trial.forecast.reset();
     out->trial.distortion = distortion_of(out->solution);
+    out->trial.losses = losses(*atlas, out->solution);
     out->fallbacks.assign(journal.fallbacks.begin() + static_cast<std::ptrdiff_t>(before.fallbacks), journal.fallbacks.end());
     out->warnings.assign(journal.warnings.begin() + static_cast<std::ptrdiff_t>(before.warnings), journal.warnings.end());
     if (trial.in_place_of) out->warnings = trial.in_place_of->warnings;
@@ -150,64 +158,73 @@ std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, cons
   if (!atlas) return std::nullopt;
   const Refinement run{run_.input, run_.options, run_.monitor, run_.journal, 1, run_.asked};  // they run side by side
   // A chart alone that is cut is best placed anew; of many charts the layout is worth more than what another would gain.
-  const auto laid = present && charts->size() > 1 ? in_place(*charts, *atlas, *present) : std::nullopt;
-  const auto left = laid ? forecast_in_place(run, *laid, present->solution) : std::nullopt;
-  const auto moved = !left || charts->size() <= kFewCharts ? forecast_energy(run, *atlas) : std::nullopt;
+  const auto laid =
+      present && (charts->size() > 1 || !present->trial.cuts.empty()) ? in_place(*charts, *atlas, *present) : std::nullopt;
+  auto left = laid ? forecast_in_place(run, *laid, present->solution) : std::nullopt;
+  auto moved = !left || charts->size() <= kFewCharts ? forecast_anew(run, *atlas) : std::nullopt;
   if (!left && !moved) return std::nullopt;
-  const double infinite = std::numeric_limits<double>::infinity();
-  out.distortion = offset_ + std::min(left.value_or(infinite), moved.value_or(infinite));
-  if (left && *left <= moved.value_or(infinite)) out.in_place_of = present;
+  const bool stays = left && (!moved || left->end.outcome.energy <= moved->end.outcome.energy);
+  if (stays) out.in_place_of = present;
+  out.forecast = std::move(stays ? left : moved);
+  out.foreseen = out.distortion = offset_ + out.forecast->end.outcome.energy;
+  out.losses = losses(*atlas, *out.forecast);
   return out;
 }
 
-std::vector<Trial> CutTrials::forecasts(const SqueezedTrial& present, const std::vector<CutPlace>& places, double most_growth,
-                                        const ProgressRange& range) const {
+std::vector<std::optional<Trial>> CutTrials::forecasts(const std::vector<std::vector<CutPlace>>& sets,
+                                                       const SqueezedTrial* present, double most_growth,
+                                                       const ProgressRange& range) const {
   run_.journal.begin_stage("layout", range);
-  const std::vector<CutPlace>& cuts = present.trial.cuts;
-  std::vector<std::vector<CutPlace>> sets;
-  for (const CutPlace& place : places) {
-    sets.push_back(cuts);
-    sets.back().push_back(place);
-  }
-  for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-    sets.push_back(cuts);
-    sets.back().erase(sets.back().begin() + static_cast<std::ptrdiff_t>(k));
-  }
-  std::vector<std::optional<Trial>> found(sets.size());
+  std::vector<std::optional<Trial>> out(sets.size());
   parallel_ranges(static_cast<int>(sets.size()), run_.threads, 1, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k)
-      found[k] = forecast(sets[k], sets[k].size() > cuts.size() ? &present : nullptr, most_growth);
+    for (int k = begin; k < end; ++k) {
+      const bool is_more = present && sets[k].size() > present->trial.cuts.size();
+      out[k] = forecast(sets[k], is_more ? present : nullptr, most_growth);
+    }
   });
-  std::vector<Trial> out;
-  for (auto& trial : found) {
-    if (trial) out.push_back(std::move(*trial));
-  }
   return out;
 }
 
-/// What each triangle of the charts has lost in the solution, times its area.
-std::vector<std::vector<double>> CutTrials::losses(const Solution& solution) const {
-  std::vector<std::vector<double>> out;
-  for (const Piece& piece : whole_.atlas.pieces) out.emplace_back(piece.mesh.triangles.size(), 0);
+/// What each triangle has lost in the solution, times its area; `atlas`: the pieces before they were squeezed.
+std::vector<std::vector<Loss>> CutTrials::losses(const CutAtlas& atlas, const Solution& solution) const {
+  std::vector<std::vector<Loss>> out(whole_.atlas.pieces.size());
   const double scale = dirichlet_sums(meshes_of(solution.atlas)).best_scale();
-  for (const Piece& piece : solution.atlas.pieces) {
-    const Chart& mesh = piece.mesh;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto [a, b, c] = mesh.triangles[t];
-      const Mat2 j = scale * jacobian(mesh.surface[t].inverse_edges, mesh.uvs[a], mesh.uvs[b], mesh.uvs[c]);
-      out[piece.chart][piece.sources[t]] += mesh.surface[t].area * (symmetric_dirichlet(j) - 1);
+  for (std::size_t p = 0; p < atlas.pieces.size(); ++p) {
+    const Chart& before = atlas.pieces[p].mesh;
+    const std::vector<Vec2>& after = solution.atlas.pieces[p].mesh.uvs;
+    for (std::size_t t = 0; t < before.triangles.size(); ++t) {
+      const auto [a, b, c] = before.triangles[t];
+      const Mat2 j = scale * jacobian(before.surface[t].inverse_edges, after[a], after[b], after[c]);
+      const double amount = before.surface[t].area * (symmetric_dirichlet(j) - 1) / area_;
+      out[atlas.pieces[p].chart].push_back({(before.uvs[a] + before.uvs[b] + before.uvs[c]) / 3, amount});
     }
   }
   return out;
 }
 
-std::vector<CutPlace> CutTrials::places(const SqueezedTrial& present, int most) const {
-  const auto charts = made(present.trial.cuts);
-  std::vector<std::vector<double>> lost = losses(present.solution);
+std::vector<std::vector<Loss>> CutTrials::losses(const CutAtlas& atlas, const Forecast& forecast) const {
+  std::vector<std::vector<Loss>> out(whole_.atlas.pieces.size());
+  for (const Forecast::Loss& loss : forecast.losses) {
+    const Piece& piece = atlas.pieces[loss.chart];
+    const std::vector<Vec2>& uvs = piece.mesh.uvs;
+    const auto [a, b, c] = loss.corners;
+    out[piece.chart].push_back({(uvs[a] + uvs[b] + uvs[c]) / 3, loss.amount});
+  }
+  return out;
+}
+
+std::vector<CutPlace> CutTrials::places(const Trial& present, int most) const {
+  const auto charts = made(present.cuts);
   std::vector<ChartState> states;
   for (std::size_t c = 0; c < charts->size(); ++c)
-    states.push_back({bends(freedom_, c) ? &(*charts)[c] : nullptr, &whole_.atlas.pieces[c].mesh, std::move(lost[c])});
+    states.push_back({bends(freedom_, c) ? &(*charts)[c] : nullptr, &whole_.atlas.pieces[c].mesh, present.losses[c]});
   return cut_places(states, most);
+}
+
+double CutTrials::growth_of(const CutPlace& place) const {
+  const Chart& chart = whole_.atlas.pieces[place.chart].mesh;
+  const double scale = std::sqrt(chart.surface.area() / uv_area(chart));
+  return boundary_ > 0 ? 2 * scale * place.chord.length() / boundary_ : 0;
 }
 
 }  // namespace atlas_refine

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reduce/squeeze.h"
 #include "report/solution.h"
 #include "seams/cut_places.h"
 #include "whole.h"
@@ -18,8 +19,11 @@ struct Trial {
   std::vector<CutPlace> cuts;  ///< in the order in which they are made
   double growth = 0;           ///< of the boundary on the surface, as a fraction of that of the charts; both sides of a cut count
   double distortion = 0;       ///< E_d; infinite where the bound does not hold
+  double foreseen = 0;         ///< the same as it was forecast
   /// What they are one cut more than, where the pieces are best left in its layout; else they are placed anew.
   const SqueezedTrial* in_place_of = nullptr;
+  std::optional<Forecast> forecast = {};
+  std::vector<std::vector<Loss>> losses = {};  ///< of each chart
 };
 
 /// The same squeezed to the end.
@@ -44,13 +48,16 @@ class CutTrials {
   /// Of what was forecast; nothing where the bound does not hold.
   std::optional<SqueezedTrial> squeezed(const Trial& trial, const ProgressRange& range) const;
 
-  /// What one more cut than `present` has comes to, and what one cut less does: one trial for each that can be made, leaves no
-  /// slivers, adds at most `most_growth` and holds the bound. `present` must outlive them.
-  std::vector<Trial> forecasts(const SqueezedTrial& present, const std::vector<CutPlace>& places, double most_growth,
-                               const ProgressRange& range) const;
+  /// What sets of cuts come to: a trial for each that can be made, leaves no slivers, adds at most `most_growth` and holds the
+  /// bound. Sets of one cut more than `present` may also be left in its layout; it must outlive them.
+  std::vector<std::optional<Trial>> forecasts(const std::vector<std::vector<CutPlace>>& sets, const SqueezedTrial* present,
+                                              double most_growth, const ProgressRange& range) const;
 
   /// Where one more cut may pay; at most `most`.
-  std::vector<CutPlace> places(const SqueezedTrial& present, int most) const;
+  std::vector<CutPlace> places(const Trial& present, int most) const;
+
+  /// Boundary that a cut adds, roughly, as Trial::growth.
+  double growth_of(const CutPlace& place) const;
 
  private:
   std::optional<std::vector<ChartCuts>> made(const std::vector<CutPlace>& cuts) const;
@@ -60,7 +67,8 @@ class CutTrials {
                                    const SqueezedTrial& present) const;
   double growth_of(const std::vector<ChartCuts>& charts) const;
   bool leaves_slivers(const std::vector<ChartCuts>& charts) const;
-  std::vector<std::vector<double>> losses(const Solution& solution) const;
+  std::vector<std::vector<Loss>> losses(const CutAtlas& atlas, const Solution& solution) const;
+  std::vector<std::vector<Loss>> losses(const CutAtlas& atlas, const Forecast& forecast) const;
   double distortion_of(const Solution& solution) const;
 
   const Refinement& run_;
@@ -68,6 +76,7 @@ class CutTrials {
   WholeCharts whole_;
   std::vector<SidePrices> prices_;
   double boundary_;    // of all charts, on the surface
+  double area_ = 0;    // likewise
   double offset_ = 0;  // E_d less the objective, which other densities, shapes or weights make differ
 };
 

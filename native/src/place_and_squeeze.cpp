@@ -80,12 +80,13 @@ std::vector<PlacedCharts> starts_of(const Refinement& run, std::optional<PlacedC
 }
 
 PlacedCharts place(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap,
-                   double good_enough) {
+                   double good_enough, bool quick = false) {
   const PlaceOptions options{.gap = gap,
                              .box_aspect = run.options.box_aspect,
                              .target_pe = good_enough,
                              .seed = run.options.seed,
                              .threads = run.threads,
+                             .quick = quick,
                              .rotate = run.options.rotate,
                              .align_axes = run.options.align_axes};
   if (!any_fixed(freedom)) return {.charts = place_charts(charts, options, run.monitor)};
@@ -144,6 +145,7 @@ void squeeze_into(const Refinement& run, const std::vector<PlacedCharts>& starts
   out.gap = best.gap;
   out.ended = ended_of(best.outcome.status);
   out.price = best.outcome.price;
+  out.rough_energy = best.rough_energy;
   out.end = best.outcome.end;
   warn_of_gap(run, best.gap, best.gap_note);
 }
@@ -235,6 +237,17 @@ InPlace in_place(const Refinement& run, const CutAtlas& laid, const Solution& fr
               .warm = from.end,
               .options = squeeze_options(run, freedom_of_pieces(freedom_of(run.input.set, run.options), laid), {from.gap})};
   out.warm.near_borders.clear();  // of other vertices
+  return out;
+}
+
+Solution cut_solution(const CutAtlas& atlas, const ReduceResult& result, const Gap& gap) {
+  Solution out{.intervention = Intervention::Cut,
+               .atlas = with_uvs(atlas, result.uvs),
+               .gap = gap,
+               .ended = ended_of(result.status),
+               .price = result.price,
+               .end = result.end};
+  out.atlas.frame = result.frame;
   return out;
 }
 
@@ -332,32 +345,37 @@ std::optional<Solution> squeeze_in_place(const Refinement& run, const CutAtlas& 
   const ReduceResult result = squeeze_on(start, objective, from.gap, warm, options, run.monitor);
   run.journal.iterations += result.iterations;
   if (!result.holds()) return std::nullopt;
-  Solution out{.intervention = Intervention::Cut,
-               .atlas = with_uvs(laid, result.uvs),
-               .gap = from.gap,
-               .ended = ended_of(result.status),
-               .price = result.price,
-               .end = result.end};
-  out.atlas.frame = result.frame;
+  return cut_solution(laid, result, from.gap);
+}
+
+std::optional<Forecast> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from) {
+  const auto [start, objective, warm, options] = in_place(run, laid, from);
+  Forecast out = forecast_squeeze_on(start, objective, from.gap, warm, options, run.monitor);
+  if (!out.end.outcome.holds()) return std::nullopt;
   return out;
 }
 
-std::optional<double> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from) {
-  const auto [start, objective, warm, options] = in_place(run, laid, from);
-  const ReduceResult result = forecast_squeeze_on(start, objective, from.gap, warm, options, run.monitor);
-  if (!result.holds()) return std::nullopt;
-  return result.energy;
-}
-
-std::optional<double> forecast_energy(const Refinement& run, const CutAtlas& atlas) {
+std::optional<Forecast> forecast_anew(const Refinement& run, const CutAtlas& atlas) {
   const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), atlas);
   const std::vector<Chart> pieces = meshes_of(atlas);
   const std::vector<Gap> gaps = gaps_of(run, pieces, freedom, kMostTakenBent);
-  const PlacedCharts start = place(run, pieces, freedom, gaps.front(), kRoughly * run.options.pe_bound);
-  const Objective objective = goal_of(run.input.set.charts, atlas, run.options);
-  const ReduceResult result = forecast_squeeze({start}, objective, squeeze_options(run, freedom, gaps), run.monitor).outcome;
-  if (!result.holds()) return std::nullopt;
-  return result.energy;
+  const auto placer = [&](const std::vector<Chart>& charts) {
+    return place(run, charts, freedom, gaps.front(), kNearly * run.options.pe_bound, true);
+  };
+  Forecast out = forecast_squeeze(pieces, goal_of(run.input.set.charts, atlas, run.options), placer,
+                                  squeeze_options(run, freedom, gaps), run.monitor);
+  if (!out.end.outcome.holds()) return std::nullopt;
+  return out;
+}
+
+std::optional<Solution> squeeze_as_forecast(const Refinement& run, const CutAtlas& atlas, const Forecast& forecast) {
+  const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), atlas);
+  const auto end = squeeze_as_forecast(meshes_of(atlas), goal_of(run.input.set.charts, atlas, run.options), forecast,
+                                       squeeze_options(run, freedom, {forecast.end.gap}), run.monitor);
+  if (!end || !end->outcome.holds()) return std::nullopt;
+  run.journal.iterations += end->outcome.iterations;
+  warn_of_gap(run, end->gap, end->gap_note);
+  return cut_solution(atlas, end->outcome, end->gap);
 }
 
 }  // namespace atlas_refine

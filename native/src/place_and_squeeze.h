@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "geometry/freedom.h"
+#include "reduce/squeeze.h"
 #include "report/solution.h"
 
 namespace atlas_refine {
@@ -27,9 +28,12 @@ std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas&
 /// Nothing where the bound is not reached.
 std::optional<Solution> squeeze_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from);
 
-/// The objective at the bound, sooner and rougher, of pieces placed anew, and of pieces squeezed in place. Nothing where the
-/// bound is not reached. Several may run at once.
-std::optional<double> forecast_energy(const Refinement& run, const CutAtlas& atlas);
-std::optional<double> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from);
+/// The objective of these at the bound, sooner and rougher. Nothing where it is not reached. Several may run at once.
+std::optional<Forecast> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from);
+
+/// The same for pieces that are placed anew. Several may run at once.
+std::optional<Forecast> forecast_anew(const Refinement& run, const CutAtlas& atlas);
+/// `atlas` to the end of that; nothing where that does not hold the bound.
+std::optional<Solution> squeeze_as_forecast(const Refinement& run, const CutAtlas& atlas, const Forecast& forecast);
 
 }  // namespace atlas_refine

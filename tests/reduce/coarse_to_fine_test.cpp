@@ -67,6 +67,26 @@ TEST(CoarseToFine, KeepsTheShapesOfChartsThatOnlyMove) {
     EXPECT_LT(((moved[v] - moved[0]) - (charts[1].uvs[v] - charts[1].uvs[0])).norm(), 1e-9);
 }
 
+TEST(CoarseToFine, AForecastTellsWhatTheChartsComeToFromThere) {
+  const std::vector<Chart> charts = charts_of(shapes::mesh(shapes::u_shape(), kFine));
+  const Objective objective = make_objective(charts);
+  Monitor monitor;
+  const auto where_they_lie = [](const std::vector<Chart>& placed) { return PlacedCharts{.charts = placed}; };
+  const Forecast forecast = forecast_squeeze(charts, objective, where_they_lie, options_at(0.8), monitor);
+  ASSERT_TRUE(forecast.end.outcome.holds());
+  double lost = 0;
+  for (const Forecast::Loss& loss : forecast.losses) lost += loss.amount;
+  EXPECT_NEAR(lost, forecast.end.outcome.energy - 1, 1e-5);  // coarse triangles weigh what theirs have lost at least
+  const auto squeezed = squeeze_as_forecast(charts, objective, forecast, options_at(0.8), monitor);
+  ASSERT_TRUE(squeezed.has_value());
+  ASSERT_TRUE(squeezed->outcome.holds());
+  EXPECT_NEAR(squeezed->outcome.energy, forecast.end.outcome.energy, 0.1 * lost);
+  EXPECT_EQ(squeezed->rough_energy, forecast.end.outcome.energy);
+  const std::vector<Chart> after = testing::with_uvs(charts, squeezed->outcome.uvs);
+  testing::expect_certified(after);
+  EXPECT_GE(testing::packing_efficiency(after), 0.8);
+}
+
 TEST(CoarseToFine, TheBitsDoNotDependOnTheThreads) {
   const std::vector<Chart> charts = charts_of(shapes::mesh(shapes::comb(), kFine));
   const auto run = [&](int threads) {

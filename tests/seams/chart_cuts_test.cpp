@@ -85,6 +85,17 @@ TEST(ChartCuts, TheSecondMayEndOnTheFirst) {
   EXPECT_EQ(sheet.cuts.border().loops.size(), 3u);
 }
 
+// Its vertices would no longer be neighbours.
+TEST(ChartCuts, NoneCrossesAnother) {
+  Sheet sheet(Cut::Split);
+  ASSERT_TRUE(sheet.cuts.add(sheet.chord({0.3, 0}, {0.6, 0.6})));
+  const double length = sheet.cuts.length();
+  const int vertices = sheet.cuts.mesh().vertex_count();
+  EXPECT_FALSE(sheet.cuts.add(sheet.chord({0, 0.5}, {1, 0.1})));
+  EXPECT_EQ(sheet.cuts.length(), length);
+  EXPECT_EQ(sheet.cuts.mesh().vertex_count(), vertices);
+}
+
 TEST(ChartCuts, WhatLeadsNowhereChangesNothing) {
   Sheet sheet(Cut::Split);
   EXPECT_FALSE(sheet.cuts.add({.ends = {0, 100000}, .at = {Vec2(0, 0), Vec2(1, 1)}}));

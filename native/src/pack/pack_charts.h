@@ -37,6 +37,7 @@ struct PackOptions {
   double target_pe = 1;   ///< stop searching once sum(area) / box area reaches this
   std::uint64_t seed = 1;
   int threads = 1;
+  bool quick = false;                     ///< greedy placements only, rougher but more of them
   std::function<void(double)> tick = {};  ///< called from the calling thread with
                                           ///< progress in [0, 1]; may throw to cancel
 };

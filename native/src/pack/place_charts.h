@@ -18,6 +18,7 @@ struct PlaceOptions {
   double target_pe = 1;  ///< good enough: stop searching there
   std::uint64_t seed = 1;
   int threads = 1;
+  bool quick = false;  ///< PackOptions::quick
   Rotate rotate = Rotate::Any;
   bool align_axes = false;  ///< charts whose longest border runs straight get it onto an axis, unless rotate is None
 };

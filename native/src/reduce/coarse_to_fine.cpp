@@ -48,21 +48,19 @@ double gap_within(const std::vector<Chart>& charts, double most) {
   return std::min(most, gap_within(charts, dirichlet_sums(charts).best_scale(), most));
 }
 
-std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts, const Objective& objective,
-                                         const SqueezeOptions& options, Monitor& monitor) {
-  const std::vector<Chart>& charts = starts.front().charts;
-  const auto coarse = coarsen(charts, objective, options.freedom);
-  if (!coarse) return std::nullopt;
-  SqueezeOptions patiently = options;
-  if (charts.size() < kThousands) {
-    patiently.least_change = kLeastChange;
-    patiently.negligible = kNegligible;
-  }
-  Squeezed out = squeeze_directly(restricted(*coarse, starts), coarse->objective, patiently, monitor);
-  if (!out.outcome.holds() && !monitor.finishing()) return std::nullopt;
-  const auto start = carried_over(*coarse, charts, objective, out.outcome);
+SqueezeOptions patient(SqueezeOptions options, std::size_t charts) {
+  if (charts >= kThousands) return options;
+  options.least_change = kLeastChange;
+  options.negligible = kNegligible;
+  return options;
+}
+
+/// The charts from where the coarse ones have ended; nothing where they cannot go on from there.
+std::optional<Squeezed> squeeze_finely(const CoarseAtlas& coarse, const std::vector<Chart>& charts, const Objective& objective,
+                                       Squeezed out, const SqueezeOptions& options, Monitor& monitor) {
+  const auto start = carried_over(coarse, charts, objective, out.outcome);
   if (!start) return std::nullopt;
-  ReduceResult result = squeeze_on(*start, objective, out.gap, warm_start(*coarse, charts, out.outcome.end), options, monitor);
+  ReduceResult result = squeeze_on(*start, objective, out.gap, warm_start(coarse, charts, out.outcome.end), options, monitor);
   const bool stopped = result.status == ReduceStatus::Stopped;  // with no time for a direct squeeze
   if (!result.holds() && !stopped) return std::nullopt;
   // Borders that turned to face each other on the way may have come nearer than those of a direct squeeze do.
@@ -72,7 +70,37 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   const double gap = out.gap.length(end.has_frame() ? end.frame : box.size()) / box.diagonal();
   if (!stopped && gap_within(end.charts, kNearer * gap) < kNearer * gap_within(charts, gap)) return std::nullopt;
   out.iterations += result.iterations;
+  out.rough_energy = out.outcome.energy;
   out.outcome = std::move(result);
+  return out;
+}
+
+std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts, const Objective& objective,
+                                         const SqueezeOptions& options, Monitor& monitor) {
+  const std::vector<Chart>& charts = starts.front().charts;
+  const auto coarse = coarsen(charts, objective, options.freedom);
+  if (!coarse) return std::nullopt;
+  Squeezed out = squeeze_directly(restricted(*coarse, starts), coarse->objective, patient(options, charts.size()), monitor);
+  if (!out.outcome.holds() && !monitor.finishing()) return std::nullopt;
+  return squeeze_finely(*coarse, charts, objective, std::move(out), options, monitor);
+}
+
+std::vector<Forecast::Loss> losses_of(const std::vector<Chart>& charts, const std::optional<CoarseAtlas>& coarse,
+                                      const Objective& objective, const ReduceResult& end) {
+  std::vector<Forecast::Loss> out;
+  std::size_t element = 0;
+  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+    const bool is_coarse = coarse && coarse->charts[c];
+    const Chart& mesh = is_coarse ? coarse->charts[c]->mesh : charts[c];
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      std::array<int, 3> corners = mesh.triangles[t];
+      if (is_coarse) {
+        for (int& v : corners) v = coarse->charts[c]->kept[v];
+      }
+      out.push_back({c, corners, objective.weight[element + t] * (end.triangle_energy[c][t] - 1)});
+    }
+    element += mesh.triangles.size() + mesh.guards.size();
+  }
   return out;
 }
 
@@ -97,18 +125,33 @@ ReduceResult squeeze_on(const PlacedCharts& start, const Objective& objective, c
   });
 }
 
-Squeezed forecast_squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
-                          Monitor& monitor) {
-  const auto coarse = coarsen(starts.front().charts, objective, options.freedom);
-  if (!coarse) return squeeze_directly(starts, objective, options, monitor);
-  return squeeze_directly(restricted(*coarse, starts), coarse->objective, options, monitor);
+Forecast forecast_squeeze(const std::vector<Chart>& charts, const Objective& objective, const Placer& place,
+                          const SqueezeOptions& options, Monitor& monitor) {
+  const auto coarse = coarsen(charts, objective, options.freedom);
+  const Objective& own = coarse ? coarse->objective : objective;
+  const PlacedCharts rough = coarse ? restricted(*coarse, {.charts = charts}) : PlacedCharts{.charts = charts};
+  const PlacedCharts start = place(rough.charts);
+  Forecast out{.end = squeeze_directly({start}, own, options, monitor), .losses = {}};
+  out.losses = losses_of(charts, coarse, own, out.end.outcome);
+  return out;
 }
 
-ReduceResult forecast_squeeze_on(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
-                                 const SqueezeOptions& options, Monitor& monitor) {
+std::optional<Squeezed> squeeze_as_forecast(const std::vector<Chart>& charts, const Objective& objective,
+                                            const Forecast& forecast, const SqueezeOptions& options, Monitor& monitor) {
+  if (!forecast.end.outcome.holds()) return std::nullopt;
+  const auto coarse = coarsen(charts, objective, options.freedom);
+  if (!coarse) return forecast.end;
+  return squeeze_finely(*coarse, charts, objective, forecast.end, options, monitor);
+}
+
+Forecast forecast_squeeze_on(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
+                             const SqueezeOptions& options, Monitor& monitor) {
   const auto coarse = coarsen(start.charts, objective, options.freedom);
-  if (!coarse) return squeeze_on(start, objective, gap, warm, options, monitor);
-  return squeeze_on(restricted(*coarse, start), coarse->objective, gap, warm, options, monitor);
+  const Objective& own = coarse ? coarse->objective : objective;
+  const PlacedCharts rough = coarse ? restricted(*coarse, start) : start;
+  Forecast out{.end = {.gap = gap, .outcome = squeeze_on(rough, own, gap, warm, options, monitor)}, .losses = {}};
+  out.losses = losses_of(start.charts, coarse, own, out.end.outcome);
+  return out;
 }
 
 }  // namespace atlas_refine

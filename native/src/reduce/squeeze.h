@@ -1,6 +1,9 @@
 // The squeeze: charts bend inside a shrinking box until the bound holds; several starts, the best result wins.
 #pragma once
 
+#include <array>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,10 +32,11 @@ Gap beyond_rounding(Gap gap, Stored stored);
 inline constexpr const char* kNoRoom = "a larger one leaves the charts no room at the bound";
 
 struct Squeezed {
-  Gap gap;               ///< that was kept
-  ReduceResult outcome;  ///< the best result
-  int iterations = 0;    ///< over all starts and gaps
-  std::string gap_note;  ///< why the gaps before it were given up, in words; empty for the first
+  Gap gap;                  ///< that was kept
+  ReduceResult outcome;     ///< the best result
+  double rough_energy = 0;  ///< the objective that the coarse charts ended with, where there were such
+  int iterations = 0;       ///< over all starts and gaps
+  std::string gap_note;     ///< why the gaps before it were given up, in words; empty for the first
 };
 
 /// The part of what the bound leaves free that gaps may take where charts have to bend: beyond it they jam, or pay for each
@@ -69,10 +73,27 @@ Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objec
 ReduceResult squeeze_on(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
                         const SqueezeOptions& options, Monitor& monitor);
 
-/// What these two come to, roughly: the outcome on the coarse charts, where there are such. Its UVs are theirs.
-Squeezed forecast_squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
-                          Monitor& monitor);
-ReduceResult forecast_squeeze_on(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
-                                 const SqueezeOptions& options, Monitor& monitor);
+/// What the squeeze of some charts comes to, roughly: their coarse charts', where there are such.
+struct Forecast {
+  /// Objective lost in one of the triangles that were squeezed.
+  struct Loss {
+    int chart;
+    std::array<int, 3> corners;  ///< vertices of the charts themselves
+    double amount;               ///< all together sum up to the objective - 1
+  };
+
+  Squeezed end;
+  std::vector<Loss> losses;
+};
+using Placer = std::function<PlacedCharts(const std::vector<Chart>&)>;
+
+Forecast forecast_squeeze(const std::vector<Chart>& charts, const Objective& objective, const Placer& place,
+                          const SqueezeOptions& options, Monitor& monitor);
+/// The same of squeeze_on().
+Forecast forecast_squeeze_on(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
+                             const SqueezeOptions& options, Monitor& monitor);
+/// The charts themselves squeezed on from where the forecast has ended; nothing where they cannot.
+std::optional<Squeezed> squeeze_as_forecast(const std::vector<Chart>& charts, const Objective& objective,
+                                            const Forecast& forecast, const SqueezeOptions& options, Monitor& monitor);
 
 }  // namespace atlas_refine

@@ -28,6 +28,7 @@ struct Solution {
   Gap gap;         ///< that is kept
   Ended ended = Ended::NotRun;
   double price = 0;
+  double rough_energy = 0;       ///< Squeezed::rough_energy
   WarmStart end = {};            ///< where it was squeezed: for what goes on from here
   std::vector<int> re_embedded;  ///< charts
   std::optional<RectangleReport> rectangles;

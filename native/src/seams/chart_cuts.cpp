@@ -60,10 +60,22 @@ std::vector<int> ChartCuts::crossing(int vertex, const Vec2& target, int end) {
     if (along < kSnap && to_p.dot(way) > 0) return {p};
     if (along > 1 - kSnap && to_q.dot(way) > 0) return {q};
     const Side across{s.triangle, (s.side + 1) % 3};
-    if (mesh_.is_boundary(across)) return {};
+    if (mesh_.is_boundary(across) || is_cut(p, q)) return {};
     return {mesh_.split(across, along, meeting)};
   }
   return {};
+}
+
+/// Whether a cut runs from one vertex to the other.
+bool ChartCuts::is_cut(int p, int q) const {
+  if (p >= static_cast<int>(on_border_.size()) || q >= static_cast<int>(on_border_.size())) return false;
+  if (!on_border_[p] || !on_border_[q]) return false;
+  return std::any_of(paths_.begin(), paths_.end(), [&](const std::vector<int>& path) {
+    for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+      if ((path[k] == p && path[k + 1] == q) || (path[k] == q && path[k + 1] == p)) return true;
+    }
+    return false;
+  });
 }
 
 std::vector<int> ChartCuts::straight(const Chord& chord) {

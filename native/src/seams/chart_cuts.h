@@ -33,6 +33,7 @@ class ChartCuts {
   std::vector<int> straight(const Chord& chord);
   std::vector<int> along_edges(const Chord& chord) const;
   std::vector<int> crossing(int vertex, const Vec2& target, int end);
+  bool is_cut(int p, int q) const;
   double length_on_surface(const Side& side) const;
   std::vector<Side> cut_sides() const;
 

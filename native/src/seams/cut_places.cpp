@@ -19,7 +19,9 @@ constexpr double kAround = 0.75;  // of a cut's length: what is so near it can r
 constexpr int kWays = 2;          // to each point of high curvature, of the chart that loses most,
 constexpr int kTipsPart = 3;      // one of so many cuts leads to such a point
 
-double lost(const ChartState& state) { return std::accumulate(state.energy.begin(), state.energy.end(), 0.0); }
+double lost(const ChartState& state) {
+  return std::accumulate(state.losses.begin(), state.losses.end(), 0.0, [](double sum, const Loss& l) { return sum + l.amount; });
+}
 
 /// Charts that may be cut, those that lose most first.
 std::vector<int> charts_by_loss(const std::vector<ChartState>& states) {
@@ -38,20 +40,11 @@ double area_within(const Border& border) {
   return sum;
 }
 
-struct Ranked {
-  CutPlace place;
-  double released;  // loss nearby for its length: large is good
-};
-
 double loss_near(const ChartState& state, const Chord& chord) {
-  const Chart& chart = *state.chart;
   const double reach = kAround * chord.length();
   double sum = 0;
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    const Triangle& triangle = chart.triangles[t];
-    const std::vector<Vec2>& uvs = state.cuts->mesh().uvs;  // the chart's own vertices come first
-    const Vec2 centre = (uvs[triangle[0]] + uvs[triangle[1]] + uvs[triangle[2]]) / 3;
-    if (closest_on_segment(centre, chord.at[0], chord.at[1]).distance < reach) sum += state.energy[t];
+  for (const Loss& loss : state.losses) {
+    if (closest_on_segment(loss.at, chord.at[0], chord.at[1]).distance < reach) sum += loss.amount;
   }
   return sum;
 }
@@ -91,7 +84,7 @@ std::vector<CutPlace> ways_to_tips(const ChartState& state, int chart, const Bor
   while (static_cast<int>(out.size()) + kWays <= most) {
     const int tip = static_cast<int>(std::max_element(worth.begin(), worth.end()) - worth.begin());
     if (!(worth[tip] > 0)) break;
-    for (const Chord& chord : chords_from(border, tip, uvs[tip], kWays)) out.push_back({chart, chord});
+    for (const Chord& chord : chords_from(border, tip, uvs[tip], kWays)) out.push_back({chart, chord, loss_near(state, chord)});
     for (std::size_t v = 0; v < worth.size(); ++v) {
       if ((uvs[v] - uvs[tip]).norm() < away[tip]) worth[v] = 0;
     }
@@ -104,27 +97,28 @@ bool same(const CutPlace& a, const CutPlace& b) { return a.chart == b.chart && a
 }  // namespace
 
 std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int most) {
-  std::vector<Ranked> ranked;
-  std::vector<CutPlace> tips;
+  std::vector<CutPlace> ranked, tips;
   const std::vector<int> charts = charts_by_loss(states);
   for (const int c : charts) {
     const Border border = states[c].cuts->border();
     for (const Chord& chord : necks(border, kLeastPart * area_within(border), kNecks))
-      ranked.push_back({{c, chord}, loss_near(states[c], chord) / chord.length()});
+      ranked.push_back({c, chord, loss_near(states[c], chord)});
     if (c == charts.front()) tips = ways_to_tips(states[c], c, border, most / kTipsPart);
   }
-  std::vector<Ranked> by_loss = ranked;
+  std::vector<CutPlace> by_loss = ranked;
   std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const Ranked& a, const Ranked& b) { return a.place.chord.neck_ratio < b.place.chord.neck_ratio; });
-  std::stable_sort(by_loss.begin(), by_loss.end(), [](const Ranked& a, const Ranked& b) { return a.released > b.released; });
+                   [](const CutPlace& a, const CutPlace& b) { return a.chord.neck_ratio < b.chord.neck_ratio; });
+  std::stable_sort(by_loss.begin(), by_loss.end(), [](const CutPlace& a, const CutPlace& b) {
+    return a.released / a.chord.length() > b.released / b.chord.length();
+  });
   std::vector<CutPlace> out;
   const auto add = [&](const CutPlace& place) {
     if (std::none_of(out.begin(), out.end(), [&](const CutPlace& other) { return same(other, place); })) out.push_back(place);
   };
   const std::size_t straight = std::max(0, most - static_cast<int>(tips.size()));
   for (std::size_t k = 0; k < ranked.size(); ++k) {
-    if (out.size() < straight) add(by_loss[k].place);
-    if (out.size() < straight) add(ranked[k].place);
+    if (out.size() < straight) add(by_loss[k]);
+    if (out.size() < straight) add(ranked[k]);
   }
   for (const CutPlace& tip : tips) add(tip);
   return out;

@@ -13,13 +13,20 @@ inline constexpr double kLeastPart = 0.02;  ///< of its chart's area: less is no
 struct CutPlace {
   int chart;
   Chord chord;
+  double released = 0;  ///< distortion that is near enough to relax
+};
+
+/// Distortion that is pent up in a part of a chart.
+struct Loss {
+  Vec2 at;        ///< in the chart as repaired
+  double amount;  ///< of all charts it sums up to E_d - 1
 };
 
 /// What is known of a chart.
 struct ChartState {
-  const ChartCuts* cuts;       ///< those that it has
-  const Chart* chart;          ///< as repaired
-  std::vector<double> energy;  ///< per triangle of it: what it has lost, times its area
+  const ChartCuts* cuts;  ///< those that it has
+  const Chart* chart;     ///< as repaired
+  std::vector<Loss> losses;
 };
 
 /// At most `most`, best first: in turn by how short they are for what they cut off and by how much distortion is near them for

@@ -104,9 +104,9 @@ CutAtlas lay_apart(const CutAtlas& finer, const CutAtlas& present, const std::ve
     for (std::size_t a = 0; a < own.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) nearest = std::min(nearest, (middles[a] - middles[b]).norm());
     }
-    // Shrunk about their middles two pieces part by that share of the middles' distance; a cut at a slant needs more.
-    constexpr double kSlant = 2, kLeastKept = 0.8;
-    const double kept = std::max(kLeastKept, 1 - kSlant * gap / nearest);
+    // Shrunk about their middles two pieces part by that share of the middles' distance.
+    constexpr double kLeastKept = 0.8;
+    const double kept = std::max(kLeastKept, 1 - gap / nearest);
     for (std::size_t k = 0; k < own.size(); ++k) {
       for (Vec2& uv : out.pieces[own[k]].mesh.uvs) uv = middles[k] + kept * (uv - middles[k]);
     }

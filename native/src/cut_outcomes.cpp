@@ -1,0 +1,76 @@
+// The best of trials, and those that no other dominates.
+#include "cut_outcomes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace atlas_refine {
+namespace {
+
+bool same(const Trial& a, const Trial& b) { return a.growth == b.growth && a.distortion == b.distortion; }
+
+}  // namespace
+
+double loss(const Trial& trial) { return std::min(trial.distortion, kHopeless); }
+
+bool Wish::is_better(const Trial& a, const Trial& b) const {
+  if (!has_limit()) return cost(a) < cost(b) - kSettled;
+  if (is_enough(a) != is_enough(b)) return is_enough(a);
+  return is_enough(a) ? a.growth < b.growth : a.distortion < b.distortion;
+}
+
+bool Outcomes::knows(const Trial& trial) const {
+  const auto is_same = [&](const Trial& other) { return same(other, trial); };
+  return std::any_of(forecast.begin(), forecast.end(), is_same) || std::any_of(failed.begin(), failed.end(), is_same);
+}
+
+SqueezedTrial& Outcomes::best(const Wish& wish) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < squeezed.size(); ++k) {
+    if (wish.is_better(squeezed[k].trial, squeezed[best].trial)) best = k;
+  }
+  return squeezed[best];
+}
+
+std::vector<TradeOff> Outcomes::trade_off() const {
+  std::vector<TradeOff> all;
+  const auto add = [&](const Trial& t, bool is_squeezed) {
+    all.push_back({t.growth, t.distortion, static_cast<int>(t.cuts.size()), is_squeezed});
+  };
+  for (const Trial& trial : forecast) add(trial, false);
+  for (const SqueezedTrial& s : squeezed) add(s.trial, true);
+  std::stable_sort(all.begin(), all.end(), [](const TradeOff& a, const TradeOff& b) {
+    return std::pair(a.boundary_growth, a.distortion) < std::pair(b.boundary_growth, b.distortion);
+  });
+  std::vector<TradeOff> out;
+  for (const TradeOff& outcome : all) {
+    if (std::isfinite(outcome.distortion) && (out.empty() || outcome.distortion < out.back().distortion - kSettled))
+      out.push_back(outcome);
+  }
+  return out;
+}
+
+std::vector<Trial>::iterator Outcomes::forecast_on_front() {
+  const std::vector<TradeOff> front = trade_off();
+  return std::find_if(forecast.begin(), forecast.end(), [&](const Trial& trial) {
+    return std::any_of(front.begin(), front.end(), [&](const TradeOff& f) {
+      return !f.squeezed && f.boundary_growth == trial.growth && f.distortion == trial.distortion;
+    });
+  });
+}
+
+SqueezedTrial& Outcomes::point(int number) {
+  const std::vector<TradeOff> front = trade_off();
+  const TradeOff& wanted = front[std::min<std::size_t>(number, front.size() - 1)];
+  return *std::find_if(squeezed.begin(), squeezed.end(), [&](const SqueezedTrial& s) {
+    return s.trial.growth == wanted.boundary_growth && s.trial.distortion == wanted.distortion;
+  });
+}
+
+CutReport Outcomes::report(const Trial& chosen) const {
+  CutReport out{static_cast<int>(chosen.cuts.size()), tried, trade_off()};
+  for (const TradeOff& outcome : out.trade_off) out.chosen += outcome.boundary_growth <= chosen.growth;
+  return out;
+}
+
+}  // namespace atlas_refine

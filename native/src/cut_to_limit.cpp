@@ -1,0 +1,319 @@
+// Cut by cut, always the one that saves most for its length beside those that there are. What it saves is foreseen from what it
+// was forecast to save by itself or beside others, so that only few are forecast in each place; only what others go on from, or
+// what is forecast to keep the limit, is squeezed to the end. Once the limit is kept the search goes back to what may need less
+// boundary.
+#include "cut_to_limit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace atlas_refine {
+namespace {
+
+constexpr double kHopeful = 0.5;  // further cuts pay at this part of the best rate that was seen
+constexpr double kInherited =
+    0.8;                      // of what a cut saved by itself it saves beside others, before any was forecast beside others:
+constexpr double kPrior = 3;  // that counts as so much of the logarithm
+constexpr double kLikelyShare = 0.5;   // of the distortion near a cut that relaxes, before any was forecast
+constexpr double kMostShare = 0.9;     // of all distortion that one cut may release
+constexpr double kRemoved = 0.5;       // of what a cut saved when it was added is lost without it
+constexpr double kLeastGain = 0.01;    // of the logarithm of E_d - 1
+constexpr double kNear = 0.1;          // of it, above the limit: what is forecast so near may keep it
+constexpr double kLeastExcess = 1e-6;  // of E_d above 1
+
+/// How far the search goes.
+struct Budget {
+  int places;     ///< that are looked at from one set
+  int improving;  ///< forecasts in all, once the limit is kept
+  int forecasts;  ///< before
+  int squeezes;
+};
+
+Budget budget_of(Effort effort) {
+  switch (effort) {
+    case Effort::Fast:
+      return {6, 8, 20, 10};
+    case Effort::Normal:
+      return {8, 14, 32, 16};
+    case Effort::Best:
+      return {24, 100, 160, 60};
+  }
+  return {};
+}
+
+/// Cuts save a part of what is lost, not a number of it: they are compared by its logarithm.
+double excess(double distortion) { return std::log(std::clamp(distortion - 1, kLeastExcess, kHopeless - 1)); }
+
+bool same(const CutPlace& a, const CutPlace& b) {
+  const bool straight = a.chord.at[0] == b.chord.at[0] && a.chord.at[1] == b.chord.at[1];
+  const bool reversed = a.chord.at[0] == b.chord.at[1] && a.chord.at[1] == b.chord.at[0];
+  return a.chart == b.chart && (straight || reversed);
+}
+
+bool has(const std::vector<CutPlace>& cuts, const CutPlace& place) {
+  return std::any_of(cuts.begin(), cuts.end(), [&](const CutPlace& cut) { return same(cut, place); });
+}
+
+/// In whatever order.
+bool same(const std::vector<CutPlace>& a, const std::vector<CutPlace>& b) {
+  return a.size() == b.size() && std::all_of(a.begin(), a.end(), [&](const CutPlace& cut) { return has(b, cut); });
+}
+
+/// A set of cuts that others may be found from: foreseen, or forecast.
+struct Prospect {
+  Trial trial;
+  double before = 0;                       ///< excess of the set that it is one cut more or less than
+  double gain = 0;                         ///< of that, as it is foreseen
+  const SqueezedTrial* present = nullptr;  ///< that set, where it is one cut more
+  bool is_forecast = false;
+  int expansion = 0;  ///< in which it was found
+};
+
+/// What cuts save of the excess, learnt from forecasts.
+class Savings {
+ public:
+  /// `foreseen`: what was expected of it; 0 where nothing was.
+  void learn(const CutPlace& place, double before, double foreseen, double gain) {
+    near_ += place.released / std::exp(before);
+    relaxed_ += std::max(0.0, 1 - std::exp(-gain));
+    if (foreseen > 0) {
+      foreseen_ += foreseen;
+      came_ += std::max(0.0, gain);
+    }
+    const auto known = find(place);
+    if (known == known_.end()) {
+      known_.push_back({place, gain});
+    } else {
+      known_[known - known_.begin()].gain = gain;
+    }
+  }
+
+  double foresee(const CutPlace& place, double before) const {
+    const auto known = find(place);
+    if (known != known_.end()) return known->gain;
+    const double share = (kLikelyShare + relaxed_) / (1 + near_) * place.released / std::exp(before);
+    return -std::log(1 - std::min(kMostShare, share));
+  }
+
+  /// The part of what was foreseen that forecasts have come to so far.
+  double faith() const { return (kPrior * kInherited + came_) / (kPrior + foreseen_); }
+
+  /// Places that save something, and are not among these, added.
+  void add_useful(std::vector<CutPlace>& places) const {
+    for (const Saving& saving : known_) {
+      if (saving.gain > kLeastGain && !has(places, saving.place)) places.push_back(saving.place);
+    }
+  }
+
+ private:
+  struct Saving {
+    CutPlace place;
+    double gain;
+  };
+
+  std::vector<Saving>::const_iterator find(const CutPlace& place) const {
+    return std::find_if(known_.begin(), known_.end(), [&](const Saving& s) { return same(s.place, place); });
+  }
+
+  std::vector<Saving> known_;
+  double near_ = 0, relaxed_ = 0, foreseen_ = 0, came_ = 0;
+};
+
+/// Sets that the search may go on with, and which of them first.
+class Frontier {
+ public:
+  /// `limit`: as excess.
+  Frontier(const CutTrials& trials, double limit) : trials_(trials), limit_(limit) {}
+
+  bool empty() const { return open_.empty(); }
+  bool is_near(const Trial& trial) const { return likely_excess(trial) <= limit_ + kNear; }
+
+  /// Coarse charts lose a little more than the charts themselves.
+  void learn_bias(const Trial& trial, double foreseen) {
+    if (std::isfinite(trial.distortion) && trial.distortion > 1 && foreseen > 1) bias_ = (trial.distortion - 1) / (foreseen - 1);
+  }
+  double likely_excess(const Trial& trial) const { return excess(1 + bias_ * (trial.foreseen - 1)); }
+
+  /// The cut that saves most for its length beside those that there are; where none of these is left, back to what promises to
+  /// keep the limit with the least boundary. Nothing where none promises to do so with less than `enough`.
+  std::optional<Prospect> next(double enough) {
+    const auto hopeless = [&](const Prospect& p) { return promise(p) >= enough; };
+    open_.erase(std::remove_if(open_.begin(), open_.end(), hopeless), open_.end());
+    if (open_.empty()) return std::nullopt;
+    const auto last =
+        std::stable_partition(open_.begin(), open_.end(), [&](const Prospect& p) { return p.expansion == expansions_; });
+    const auto best =
+        last == open_.begin()
+            ? std::min_element(last, open_.end(), [&](const auto& a, const auto& b) { return promise(a) < promise(b); })
+            : std::max_element(open_.begin(), last, [&](const auto& a, const auto& b) { return rate_of(a) < rate_of(b); });
+    Prospect out = std::move(*best);
+    open_.erase(best);
+    return out;
+  }
+
+  /// One cut more, at each of these places and of those that have saved something before.
+  void add_more(const SqueezedTrial& squeezed, std::vector<CutPlace> places, double most_growth) {
+    ++expansions_;
+    const Trial& present = squeezed.trial;
+    savings_.add_useful(places);
+    for (const CutPlace& place : places) {
+      Trial trial{.cuts = present.cuts, .growth = present.growth + trials_.growth_of(place)};
+      trial.cuts.push_back(place);
+      if (has(present.cuts, place) || trial.growth > most_growth) continue;
+      const double before = likely_excess(present);
+      foresee({std::move(trial), before, savings_.foresee(place, before), &squeezed});
+    }
+  }
+
+  /// One cut less: what it saved when it was added is the most that it saves now.
+  void add_less(const Trial& present) {
+    for (std::size_t k = 0; k < present.cuts.size() && present.cuts.size() > 1; ++k) {
+      Trial trial{.cuts = present.cuts, .growth = present.growth - trials_.growth_of(present.cuts[k])};
+      trial.cuts.erase(trial.cuts.begin() + static_cast<std::ptrdiff_t>(k));
+      const double before = likely_excess(present);
+      foresee({std::move(trial), before, -kRemoved * std::max(kLeastGain, savings_.foresee(present.cuts[k], before))});
+    }
+  }
+
+  /// One that was forecast: kept where it is better than without its last cut or, with one cut less, no worse than the limit.
+  void add_forecast(Prospect prospect) {
+    prospect.is_forecast = true;
+    const double gain = gain_of(prospect);
+    if (prospect.gain >= 0) {
+      const CutPlace& last = prospect.trial.cuts.back();
+      savings_.learn(last, prospect.before, prospect.gain, gain);
+      if (gain < kLeastGain) return;
+      const double growth = trials_.growth_of(last);
+      best_rate_ = std::max(best_rate_, gain / (growth + kShortest));
+      least_growth_ = std::min(least_growth_, growth);
+    } else if (!is_near(prospect.trial)) {
+      return;
+    }
+    open_.push_back(std::move(prospect));
+  }
+
+ private:
+  double gain_of(const Prospect& prospect) const {
+    if (prospect.is_forecast) return prospect.before - likely_excess(prospect.trial);
+    return (prospect.gain > 0 ? savings_.faith() : 1) * prospect.gain;
+  }
+
+  /// Saved for the growth of the last cut; beyond the limit nothing is worth any.
+  double rate_of(const Prospect& prospect) const {
+    const double gain = std::min(gain_of(prospect), prospect.before - limit_);
+    return gain / (trials_.growth_of(prospect.trial.cuts.back()) + kShortest);
+  }
+
+  /// The growth with which a set will keep the limit: further cuts save half as much for their length as the best so far, and are
+  /// no shorter than the shortest.
+  double promise(const Prospect& prospect) const {
+    const double left = prospect.before - gain_of(prospect) - limit_;
+    if (left <= 0) return prospect.trial.growth;
+    return prospect.trial.growth + std::max(least_growth_, left / (kHopeful * best_rate_));
+  }
+
+  void foresee(Prospect prospect) {
+    const std::vector<CutPlace>& cuts = prospect.trial.cuts;
+    if (std::any_of(seen_.begin(), seen_.end(), [&](const auto& other) { return same(other, cuts); })) return;
+    seen_.push_back(cuts);
+    prospect.expansion = expansions_;
+    open_.push_back(std::move(prospect));
+  }
+
+  const CutTrials& trials_;
+  double limit_;
+  std::vector<Prospect> open_;
+  std::vector<std::vector<CutPlace>> seen_;
+  Savings savings_;
+  double best_rate_ = 0.1, least_growth_ = 1, bias_ = 1;
+  int expansions_ = 0;
+};
+
+class LimitSearch {
+ public:
+  LimitSearch(const CutTrials& trials, const RefineOptions& options, const ProgressRange& range, Outcomes& found)
+      : trials_(trials),
+        wish_{options},
+        most_growth_(options.max_boundary_growth.value_or(std::numeric_limits<double>::infinity())),
+        budget_(budget_of(options.effort)),
+        rest_(range),
+        found_(found),
+        frontier_(trials, excess(*options.max_distortion)) {}
+
+  void run() {
+    const SqueezedTrial& whole = found_.squeezed.front();
+    if (wish_.is_enough(whole.trial)) return;
+    frontier_.learn_bias(whole.trial, whole.trial.foreseen);
+    start_from(whole);
+    while (!trials_.finishing() && static_cast<int>(found_.squeezed.size()) <= budget_.squeezes) {
+      auto next = frontier_.next(keeps_limit() ? found_.best(wish_).trial.growth : std::numeric_limits<double>::infinity());
+      if (!next) break;
+      if (next->is_forecast) {
+        look_at(*next);
+      } else if (may_forecast()) {
+        forecast(std::move(*next));
+      }
+    }
+  }
+
+ private:
+  ProgressRange step() {
+    const ProgressRange out = rest_.part(0, 0.2);
+    rest_ = rest_.part(0.2, 1);
+    return out;
+  }
+
+  bool keeps_limit() { return wish_.is_enough(found_.best(wish_).trial); }
+  bool may_forecast() { return found_.tried < (keeps_limit() ? budget_.improving : budget_.forecasts); }
+
+  /// Each place is forecast by itself.
+  void start_from(const SqueezedTrial& whole) {
+    std::vector<std::vector<CutPlace>> sets;
+    for (const CutPlace& place : trials_.places(whole.trial, budget_.places)) sets.push_back({place});
+    for (auto& trial : trials_.forecasts(sets, &whole, most_growth_, step())) {
+      ++found_.tried;
+      if (trial) frontier_.add_forecast({std::move(*trial), frontier_.likely_excess(whole.trial), 0, &whole});
+    }
+  }
+
+  void forecast(Prospect prospect) {
+    auto trial = trials_.forecasts({prospect.trial.cuts}, prospect.present, most_growth_, step()).front();
+    if (!trial) return;
+    ++found_.tried;
+    prospect.trial = std::move(*trial);
+    frontier_.add_forecast(std::move(prospect));
+  }
+
+  /// Squeezed, and others found from there; once no more can be forecast only where that may be the end, or the best there is.
+  void look_at(const Prospect& prospect) {
+    const bool is_best = !keeps_limit() && prospect.trial.foreseen < found_.best(wish_).trial.foreseen;
+    if (!may_forecast() && !frontier_.is_near(prospect.trial) && !is_best) return;
+    auto squeezed = trials_.squeezed(prospect.trial, step());
+    if (!squeezed) return;
+    frontier_.learn_bias(squeezed->trial, prospect.trial.foreseen);
+    const SqueezedTrial& found = found_.squeezed.emplace_back(std::move(*squeezed));
+    if (wish_.is_enough(found.trial)) {
+      frontier_.add_less(found.trial);
+    } else {
+      frontier_.add_more(found, trials_.places(found.trial, budget_.places), most_growth_);
+    }
+  }
+
+  const CutTrials& trials_;
+  Wish wish_;
+  double most_growth_;
+  Budget budget_;
+  ProgressRange rest_;
+  Outcomes& found_;
+  Frontier frontier_;
+};
+
+}  // namespace
+
+void cut_to_limit(const CutTrials& trials, const RefineOptions& options, const ProgressRange& range, Outcomes& found) {
+  LimitSearch(trials, options, range, found).run();
+}
+
+}  // namespace atlas_refine
