@@ -93,11 +93,17 @@ ReduceResult squeeze_on(const PlacedCharts& start, const Objective& objective, c
   });
 }
 
+std::optional<Squeezed> squeeze_coarse_charts(const std::vector<PlacedCharts>& starts, const Objective& objective,
+                                              const SqueezeOptions& options, Monitor& monitor) {
+  const auto coarse = coarsen(starts.front().charts, objective, options.freedom);
+  if (!coarse) return std::nullopt;
+  return squeeze_directly(restricted(*coarse, starts), coarse->objective, options, monitor);
+}
+
 Squeezed forecast_squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                           Monitor& monitor) {
-  const auto coarse = coarsen(starts.front().charts, objective, options.freedom);
-  if (!coarse) return squeeze_directly(starts, objective, options, monitor);
-  return squeeze_directly(restricted(*coarse, starts), coarse->objective, options, monitor);
+  auto coarse = squeeze_coarse_charts(starts, objective, options, monitor);
+  return coarse ? std::move(*coarse) : squeeze_directly(starts, objective, options, monitor);
 }
 
 ReduceResult forecast_squeeze_on(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,

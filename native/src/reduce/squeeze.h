@@ -64,6 +64,10 @@ Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objec
 ReduceResult squeeze_on(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
                         const SqueezeOptions& options, Monitor& monitor);
 
+/// All starts and gaps on the coarse charts alone; nothing where there are no such. Its UVs are theirs.
+std::optional<Squeezed> squeeze_coarse_charts(const std::vector<PlacedCharts>& starts, const Objective& objective,
+                                              const SqueezeOptions& options, Monitor& monitor);
+
 /// What these two come to, roughly: the outcome on the coarse charts, where there are such. Its UVs are theirs.
 Squeezed forecast_squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                           Monitor& monitor);
