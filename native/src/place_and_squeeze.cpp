@@ -223,6 +223,21 @@ std::vector<Gap> gaps_to_squeeze_with(const Refinement& run, const std::vector<C
   return rather_moves(run, pieces.size()) && !any_fixed(freedom) ? without_jams(run, placing, std::move(gaps)) : gaps;
 }
 
+/// What is reduced is E_d on the surface.
+bool reduces_distortion(const RefineOptions& options) {
+  return options.density == Density::Equal && options.reference == Reference::Surface && options.importance.empty();
+}
+
+/// So much more distortion than `most` on the coarse charts, that the fine ones need not be asked; false where there are none.
+bool is_far_above(const Refinement& run, const CutAtlas& atlas, const PlacedCharts& start, const Freedoms& freedom,
+                  const std::vector<Gap>& gaps, double most) {
+  constexpr double kFar = 3e-3;  // what a forecast may be wrong by, and more
+  if (!reduces_distortion(run.options)) return false;
+  const Objective objective = goal_of(run.input.set.charts, atlas, run.options);
+  const auto forecast = squeeze_coarse_charts({start}, objective, squeeze_options(run, freedom, gaps), run.monitor);
+  return forecast && forecast->outcome.holds() && forecast->outcome.energy > most + kFar;
+}
+
 /// What the squeeze needs to go on where `laid` lies, which was cut out of what `from` ended with.
 struct InPlace {
   PlacedCharts start;
@@ -335,6 +350,7 @@ std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas&
   std::optional<PlacedCharts> start;
   if (keeps_place) start = own_layout(run, pieces, freedom, gaps.front());
   if (!start) start = place(run, pieces, freedom, gaps.front(), kRoughly * run.options.pe_bound);
+  if (is_far_above(run, atlas, *start, freedom, gaps, most)) return std::nullopt;
   const ReduceResult result = squeeze_from(run, atlas, {*start}, freedom, gaps, most).outcome;
   if (!result.holds()) return std::nullopt;
   return result.distortion;

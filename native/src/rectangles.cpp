@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "coarsen/coarse_atlas.h"
 #include "cut/boundary_places.h"
 #include "cut/restore_faces.h"
 #include "cut_along_edges.h"
@@ -29,7 +30,12 @@ constexpr double kFirstGap = 1.02;
 // Relative change of E_d at which the reduction before that ends, and the one after (the paper: 1e-4 for several iterations).
 constexpr double kFirstChange = 5e-4;
 constexpr double kLastChange = 2e-5;
-constexpr double kSpread = 1.01;  // what pieces are put further apart by before the reduction, as a factor on their places
+// From so many triangles on the first reduction is that of coarse charts. With fewer the time matters less than that another way
+// may end in another optimum, by up to 6e-4 of E_d.
+constexpr std::size_t kMany = 30000;
+constexpr double kCoarseChange = 3e-5;   // what slides slowly slides on the coarse charts, where that costs little
+constexpr double kCarriedChange = 6e-6;  // nearer to the optimum less changes at once
+constexpr double kSpread = 1.01;         // what pieces are put further apart by before the reduction, as a factor on their places
 
 /// How many edges that must stay whole the cuts run along or across.
 int forbidden_edges_cut(const CutPlan& plan, const CutAtlas& cut) {
@@ -115,18 +121,23 @@ void place(const Refinement& run, const Layout& layout, CutAtlas& cut) {
   }
 }
 
-/// Moves the pieces to less distortion under the bound.
-ReduceResult reduce(const Refinement& run, const Gap& gap, double least_change, double enough, CutAtlas& cut) {
-  const std::vector<Chart> pieces = meshes_of(cut);
-  const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), cut);
-  const ReduceProblem problem{.charts = pieces,
-                              .objective = goal_of(run.input.set.charts, cut, run.options),
-                              .gap = beyond_rounding(gap, run.options.stored),
+/// How far the pieces are reduced.
+struct Reduction {
+  Gap gap;
+  double negligible;  ///< ReduceProblem::negligible
+  double enough;      ///< ReduceProblem::enough_distortion
+};
+
+ReduceResult reduce_charts(const Refinement& run, const std::vector<Chart>& charts, const Objective& objective,
+                           const Freedoms& freedom, const Reduction& reduction) {
+  const ReduceProblem problem{.charts = charts,
+                              .objective = objective,
+                              .gap = beyond_rounding(reduction.gap, run.options.stored),
                               .box_aspect = run.options.box_aspect,
                               .pe_target = run.options.pe_bound,
-                              .enough_distortion = enough,
+                              .enough_distortion = reduction.enough,
                               .least_change = 0,
-                              .negligible = least_change,
+                              .negligible = reduction.negligible,
                               .max_distortion = run.options.max_distortion.value_or(0),
                               .threads = run.threads,
                               .freedom = freedom};
@@ -135,8 +146,38 @@ ReduceResult reduce(const Refinement& run, const Gap& gap, double least_change, 
     return !run.monitor.finishing();
   });
   run.journal.iterations += reduced.iterations;
+  return reduced;
+}
+
+/// Moves the pieces to less distortion under the bound.
+ReduceResult reduce(const Refinement& run, const Reduction& reduction, CutAtlas& cut) {
+  const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), cut);
+  ReduceResult reduced = reduce_charts(run, meshes_of(cut), goal_of(run.input.set.charts, cut, run.options), freedom, reduction);
   cut = with_uvs(std::move(cut), reduced.uvs);
   return reduced;
+}
+
+/// The same to the optimum on coarse charts, carried over to the pieces; false, and nothing has changed, where that is not to be
+/// had. What stops at some distortion has to see that of the pieces.
+bool reduce_coarsely(const Refinement& run, const Reduction& reduction, CutAtlas& cut) {
+  std::size_t triangles = 0;
+  for (const Piece& piece : cut.pieces) triangles += piece.mesh.triangles.size();
+  if (triangles < kMany || run.options.max_distortion || reduction.enough > 0) return false;
+  const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), cut);
+  const std::vector<Chart> pieces = meshes_of(cut);
+  const Objective objective = goal_of(run.input.set.charts, cut, run.options);
+  const auto coarse = coarsen(pieces, objective, freedom);
+  if (!coarse) return false;
+  const PlacedCharts start = restricted(*coarse, PlacedCharts{.charts = pieces});
+  const ReduceResult reduced = reduce_charts(run, start.charts, coarse->objective, freedom,
+                                             {.gap = reduction.gap, .negligible = kCoarseChange, .enough = 0});
+  if (!reduced.holds()) return false;
+  const auto uvs = prolonged(*coarse, pieces, objective, reduced.uvs);
+  if (!uvs) return false;
+  CutAtlas carried = with_uvs(cut, *uvs);
+  if (!certify_charts(meshes_of(carried)).valid()) return false;
+  cut = std::move(carried);
+  return true;
 }
 
 /// Takes out the vertices that only served the deformation.
@@ -184,12 +225,14 @@ Attempt cut_across_faces(const Refinement& run, const CutPlan& plan, const Progr
   if (!start.valid()) return {.failure = "in their layout " + start.problem};
 
   run.journal.begin_stage("reduce", range);  // section 3.3
-  Gap wide = gap;
-  wide.value *= kFirstGap;
-  ReduceResult reduced = reduce(run, wide, kFirstChange, plan.enough, out.atlas);
-  if (reduced.reached && reduced.within_limit) {
+  Reduction first{.gap = gap, .negligible = kFirstChange, .enough = plan.enough};
+  first.gap.value *= kFirstGap;
+  ReduceResult reduced;
+  const bool carried = reduce_coarsely(run, first, out.atlas);
+  if (carried || (reduced = reduce(run, first, out.atlas)).holds()) {
     restore(plan.sources, plan.freedom, out.atlas);
-    reduced = reduce(run, gap, kLastChange, plan.enough, out.atlas);
+    const double least_change = carried ? kCarriedChange : kLastChange;
+    reduced = reduce(run, {.gap = gap, .negligible = least_change, .enough = plan.enough}, out.atlas);
   }
   if (!reduced.within_limit) return {.failure = "cut, their distortion stays above the largest allowed"};
   if (!reduced.reached) return {.failure = "cut, they do not reach the bound"};

@@ -125,6 +125,13 @@ ReduceResult squeeze_on(const PlacedCharts& start, const Objective& objective, c
   });
 }
 
+std::optional<Squeezed> squeeze_coarse_charts(const std::vector<PlacedCharts>& starts, const Objective& objective,
+                                              const SqueezeOptions& options, Monitor& monitor) {
+  const auto coarse = coarsen(starts.front().charts, objective, options.freedom);
+  if (!coarse) return std::nullopt;
+  return squeeze_directly(restricted(*coarse, starts), coarse->objective, options, monitor);
+}
+
 Forecast forecast_squeeze(const std::vector<Chart>& charts, const Objective& objective, const Placer& place,
                           const SqueezeOptions& options, Monitor& monitor) {
   const auto coarse = coarsen(charts, objective, options.freedom);

@@ -73,6 +73,10 @@ Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objec
 ReduceResult squeeze_on(const PlacedCharts& start, const Objective& objective, const Gap& gap, const WarmStart& warm,
                         const SqueezeOptions& options, Monitor& monitor);
 
+/// All starts and gaps on the coarse charts alone; nothing where there are no such. Its UVs are theirs.
+std::optional<Squeezed> squeeze_coarse_charts(const std::vector<PlacedCharts>& starts, const Objective& objective,
+                                              const SqueezeOptions& options, Monitor& monitor);
+
 /// What the squeeze of some charts comes to, roughly: their coarse charts', where there are such.
 struct Forecast {
   /// Objective lost in one of the triangles that were squeezed.
