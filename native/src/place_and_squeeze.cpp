@@ -277,6 +277,24 @@ bool part_pinches(const Refinement& run, const Freedoms& freedom, std::vector<Ch
   return parted;
 }
 
+/// Borders that are apart by no more than rounding may touch where the texture has them, and nothing bends them any more.
+bool part_slits(const Refinement& run, const PlacedCharts& placed, const std::vector<std::vector<int>>& points,
+                const Freedoms& freedom, std::vector<Chart>& charts) {
+  const Box box = box_of(placed, run.options.box_aspect);
+  const double side = box.size().maxCoeff();
+  bool parted = false;
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    if (is_fixed(freedom, c)) continue;
+    Chart stored = placed.charts[c];
+    for (Vec2& uv : stored.uvs) uv = (uv - box.min) / side;
+    if (certify_charts({stored}, {points[c]}).valid()) continue;
+    charts[c] = made_valid(run, stored);
+    for (Vec2& uv : charts[c].uvs) uv *= side;
+    parted = true;
+  }
+  return parted;
+}
+
 void require_no_needles(const std::vector<Chart>& pieces) {
   UnmendedCharts needles;
   for (const Needle& needle : needles_among(pieces)) needles.charts.push_back({pieces[needle.chart].number, needle.words});
@@ -304,6 +322,8 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
   PlacedCharts& placed = placing.placed;
   if (const Validity valid = certify_charts(placed.charts, points, freedom); !valid.valid())
     throw RefineError(ErrorCode::BadInput, "pack", "charts could not be placed apart: " + valid.problem, valid.chart, valid.face);
+  if (holds_bound(run, placed, kRounding) && part_slits(run, placed, points, freedom, pieces))
+    placing = place_with(run, pieces, freedom, good_enough, gaps);
   run.journal.show("placed", placed.charts);
   Solution out{.atlas = with_uvs(atlas, uvs_of(placed.charts)), .gap = placing.gap};
   out.atlas.frame = placed.frame;
