@@ -25,7 +25,10 @@ BAD_FILES = {
     "NaN UV": (QUAD.replace("vt 1 0", "vt NaN 0") + FACE, "line 6: a UV that is not finite"),
     "infinite UV": (QUAD.replace("vt 1 0", "vt 1 inf") + FACE, "line 6: a UV that is not finite"),
     "text for a number": (QUAD.replace("v 1 1 0", "v 1 one 0") + FACE, "line 3: 'one' is not a number"),
-    "no number of a Windows program": (QUAD.replace("vt 1 0", "vt 1.#QNAN 0") + FACE, "line 6: a UV that is not finite: '1.#QNAN 0'"),
+    "no number of a Windows program": (
+        QUAD.replace("vt 1 0", "vt 1.#QNAN 0") + FACE,
+        "line 6: a UV that is not finite: '1.#QNAN 0'",
+    ),
     "decimal comma": (QUAD.replace("vt 1 0", "vt 1,0 0") + FACE, "line 6: '1,0' is not a number"),
     "short position": (QUAD.replace("v 1 1 0", "v 1 1") + FACE, "line 3: a vertex position with too few numbers"),
     "vt without numbers": (QUAD.replace("vt 1 0", "vt") + FACE, "line 6: a vt record without a number"),
