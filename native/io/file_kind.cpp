@@ -20,20 +20,27 @@ struct Magic {
 };
 
 // No OBJ record begins like one of these.
-constexpr std::array magics{Magic{"glTF"sv, "a binary glTF (GLB) file"},
-                            Magic{"Kaydara FBX Binary"sv, "an FBX file"},
-                            Magic{"; FBX"sv, "an FBX file"},
-                            Magic{";FBX"sv, "an FBX file"},
-                            Magic{"ply\n"sv, "a PLY file"},
-                            Magic{"ply\r"sv, "a PLY file"},
-                            Magic{"#usda"sv, "a USD file"},
-                            Magic{"PXR-USDC"sv, "a USD file"},
-                            Magic{"\x1f\x8b"sv, "a gzip file"},
-                            Magic{"\x28\xb5\x2f\xfd"sv, "a Zstandard file"},
-                            Magic{"BLENDER"sv, "a Blender file"},
-                            Magic{"Ogawa"sv, "an Alembic file"},
-                            Magic{"\xff\xfe"sv, "a UTF-16 file"},
-                            Magic{"\xfe\xff"sv, "a UTF-16 file"}};
+constexpr std::array magics{
+    Magic{"glTF"sv, "a binary glTF (GLB) file"},
+    Magic{"Kaydara FBX Binary"sv, "an FBX file"},
+    Magic{"; FBX"sv, "an FBX file"},
+    Magic{";FBX"sv, "an FBX file"},
+    Magic{"ply\n"sv, "a PLY file"},
+    Magic{"ply\r"sv, "a PLY file"},
+    Magic{"#usda"sv, "a USD file"},
+    Magic{"PXR-USDC"sv, "a USD file"},
+    Magic{"\x1f\x8b"sv, "a gzip file"},
+    Magic{"\x28\xb5\x2f\xfd"sv, "a Zstandard file"},
+    Magic{"BLENDER"sv, "a Blender file"},
+    Magic{"Ogawa"sv, "an Alembic file"},
+    Magic{"\xfd\x37zXZ"sv, "an xz file"},
+    Magic{"\x89PNG"sv, "a PNG image"},
+    Magic{"OFF\n"sv, "an OFF file"},
+    Magic{"OFF\r"sv, "an OFF file"},
+    Magic{"COFF\n"sv, "an OFF file"},
+    Magic{"version https://git-lfs"sv, "a pointer of Git LFS, whose file is to be fetched with git lfs pull"},
+    Magic{"\xff\xfe"sv, "a UTF-16 file"},
+    Magic{"\xfe\xff"sv, "a UTF-16 file"}};
 
 bool has(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
 
@@ -60,6 +67,8 @@ bool is_binary_stl(std::string_view bytes) {
 std::string_view kind_of_text(std::string_view head) {
   head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
   if (head.starts_with('{')) return has(head, "\"asset\"") ? "a glTF file" : "a JSON file";
+  if (head.starts_with("<!DOCTYPE html") || head.starts_with("<!doctype html") || head.starts_with("<html"))
+    return "an HTML page";
   if (head.starts_with("<?xml") || head.starts_with("<COLLADA")) return has(head, "<COLLADA") ? "a COLLADA file" : "an XML file";
   if (head.starts_with("solid") && (has(head, "facet") || has(head, "endsolid"))) return "an STL file";
   if (has(head, "FBXHeaderExtension:")) return "an FBX file";

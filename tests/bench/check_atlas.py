@@ -63,6 +63,9 @@ def check(
         return found
     before, after, sources = taking_part(before, after, sources, charts, found)
     found["faces"] = after.faces
+    if not after.faces:
+        found["ok"] = not problems
+        return found
     if not np.isfinite(after.corner_uv).all():
         problems.append("UVs: not finite")
         return found
@@ -121,7 +124,7 @@ def _check_seams(source, before, result, after, may_add, found):
 def _check_cut_seams(source, before, result, after, sources, found):
     added = torn_anew(source, before, result, after, sources)
     found.update(seams_in=before.seams, seams=after.seams, bl_in=before.seam_length, bl=after.seam_length, added_seams=added)
-    joined = joined_anew(before, after, sources)
+    joined = joined_anew(source, before, after, sources)
     if len(joined):
         found["problems"].append(f"seams: {len(joined)} removed, first at face {int(after.face[joined[0]])}")
 

@@ -8,6 +8,8 @@ was not open before.
 import itertools
 
 import numpy as np
+from joins import components
+from triangles import SLIVER
 
 NEAR = 1e-9  # of the face's size: so near a point lies on it
 AREA = 1e-11  # of size times coordinates: what areas may differ by
@@ -59,7 +61,7 @@ class Division:
     def assign(self):
         face, parts, covered = 0, 0, np.zeros(3)
         for part in range(self.after.faces):
-            while not self.takes(part, face, covered):
+            while not self.takes(part, face, covered, parts):
                 if problem := self.unfinished(face, parts, covered):
                     return f"{problem}, before part {part}"
                 face, parts, covered = face + 1, 0, np.zeros(3)
@@ -77,11 +79,19 @@ class Division:
         missing = np.linalg.norm(self.area[face] - covered)
         return f"face {face} is not tiled, area {missing:.3g} is missing" if missing > self.allowed[face] else ""
 
-    def takes(self, part, face, covered):
+    def takes(self, part, face, covered, parts):
         if not self.lies_on(part, face):
             return False
         tiled = np.linalg.norm(self.area[face] - covered) <= self.allowed[face]
-        return not (tiled and face + 1 < self.before.faces and self.lies_on(part, face + 1))
+        if not parts or not tiled or face + 1 == self.before.faces or not self.lies_on(part, face + 1):
+            return True
+        # Of a face without area parts may be missing still: those that follow tell.
+        for later in range(part + 1, self.after.faces):
+            if not self.lies_on(later, face):
+                return False
+            if not self.lies_on(later, face + 1):
+                return True
+        return False
 
     def lies_on(self, part, face):
         own = self.before.face(face).tolist()
@@ -98,9 +108,10 @@ class Division:
         return self.on[vertex, face]
 
 
-def open_length(obj):
-    """Length of the edges that one face only has, vertices of equal position taken for one."""
-    place = np.unique(obj.positions + 0.0, axis=0, return_inverse=True)[1][obj.corner_vertex]
+def open_length(obj, by_index=False):
+    """Length of the edges that one face only has; vertices of equal position are taken for one, but not where they count by index."""
+    place = np.unique(obj.positions + 0.0, axis=0, return_inverse=True)[1].reshape(-1)[obj.corner_vertex]
+    place = obj.corner_vertex if by_index else place
     following = np.arange(len(place)) + 1
     following[obj.offsets[1:] - 1] = obj.offsets[:-1]
     edges = np.sort(np.stack([place, place[following]], axis=1), axis=1)
@@ -145,14 +156,45 @@ def divided(before, after):
     opened = abs(open_length(after) - open_length(before))
     if opened > NEAR * float(division.size.sum()):
         problems.append(f"surface: edges of length {opened:.3g} are open that were not")
+    # Faces that share an edge share its new vertices too, or it is open for whoever reads the file.
+    doubled = open_length(after, by_index=True) - open_length(before, by_index=True)
+    if doubled > NEAR * float(division.size.sum()):
+        problems.append(f"surface: edges of length {doubled:.3g} have doubled vertices where the input has one")
     return sources, problems
 
 
-def joined_anew(before, after, sources):
+def joined_across(f, g, without_area):
+    """Pairs of faces that such faces lie between, of pairs that are joined: these are joined there as well."""
+    label = components(len(without_area), *(x[without_area[f] & without_area[g]] for x in (f, g)))
+    around = {}
+    for a, b in zip(np.r_[f, g].tolist(), np.r_[g, f].tolist(), strict=True):
+        if without_area[a]:
+            around.setdefault(int(label[a]), set()).update((a, b))
+    pairs = [pair for near in around.values() for pair in itertools.combinations(sorted(near), 2)]
+    return np.array(pairs, dtype=int).reshape(-1, 2).T
+
+
+def collapsed_alike(source, before):
+    """Pairs of faces whose sides of one edge are the same point in the UVs, but for noise: no seam can be told there."""
+    uv, noise = source.corner_uv, before.noise_of(source)
+    point = (before.partner < 0) & (np.linalg.norm(uv[before.next] - uv, axis=1) <= noise)
+    at_edge = {}
+    for h in np.flatnonzero(point).tolist():
+        at_edge.setdefault(tuple(sorted((int(before.place[h]), int(before.place[before.next[h]])))), []).append(h)
+    pairs = [pair for sides in at_edge.values() for pair in itertools.combinations(sides, 2)]
+    near = [before.face[[a, b]] for a, b in pairs if np.linalg.norm(uv[a] - uv[b]) <= noise]
+    return np.array(near, dtype=int).reshape(-1, 2).T
+
+
+def joined_anew(source, before, after, sources):
     """Faces of the result joined in UV space though the faces that they are parts of are not: pairs of half-edges."""
     one = np.flatnonzero(before.partner > np.arange(len(before.partner)))
     faces = int(before.face.max()) + 1
     f, g = before.face[one], before.face[before.partner[one]]
+    area, size = vector_areas(source)
+    across = joined_across(f, g, np.linalg.norm(area, axis=1) <= SLIVER * size**2)
+    points = collapsed_alike(source, before)
+    f, g = np.r_[f, across[0], points[0]], np.r_[g, across[1], points[1]]
     joined = np.unique(np.minimum(f, g) * faces + np.maximum(f, g))
     one = np.flatnonzero(after.partner > np.arange(len(after.partner)))
     f, g = sources[after.face[one]], sources[after.face[after.partner[one]]]

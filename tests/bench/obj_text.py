@@ -33,7 +33,8 @@ DATA = (b"v", b"vt", b"vn", b"f", b"l", b"p")
 
 
 def absolute(index, count):
-    return index - 1 if index > 0 else count + index
+    """From 0; below 0 where it is none."""
+    return index - 1 if index > 0 else count + index if index < 0 else -1
 
 
 def number(text):
@@ -83,8 +84,15 @@ def is_outline(vertices):
     return len(set(seen)) == len(seen)
 
 
+def finite_records(lines, keyword, count):
+    """One flag for each such record: whether its first numbers are finite."""
+    records = (line.split() for line in lines)
+    return [all(map(math.isfinite, numbers(tokens)[:count])) for tokens in records if tokens[:1] == [keyword]]
+
+
 class Reader:
-    def __init__(self):
+    def __init__(self, lines):
+        self.finite = finite_records(lines, b"v", 3), finite_records(lines, b"vt", 2)
         self.kept, self.positions, self.uvs = [], [], []
         self.vertices, self.normals, self.others, self.others_before = [], [], [], []
         self.corner_vertex, self.corner_uv, self.corner_normal, self.offsets = [], [], [], [0]
@@ -121,18 +129,20 @@ class Reader:
     def uv_index(self, corner):
         return absolute(int(corner[1]), len(self.uvs)) if len(corner) > 1 and corner[1] else -1
 
-    def is_finite(self, uv):
-        return uv >= len(self.uvs) or all(map(math.isfinite, self.uvs[uv]))
+    def are_there(self, vertices, uvs):
+        """Whether the file has all of these, and all are finite."""
+        named = zip(self.finite, (vertices, uvs), strict=True)
+        return all(0 <= index < len(finite) and finite[index] for finite, indices in named for index in indices)
 
     def face(self, corners):
         """Whether the face is in the atlas: vertices named in a row count once, each comes once but for bridges of keyholes, and all
-        corners have finite UVs."""
+        corners have UVs, finite as positions are."""
         vertices = [absolute(int(corner[0]), len(self.positions)) for corner in corners]
         own = [k for k, v in enumerate(vertices) if k == 0 or v != vertices[k - 1]]
         while len(own) > 1 and vertices[own[-1]] == vertices[own[0]]:
             own.pop()
         uvs = [self.uv_index(corner) for corner in corners]
-        if not is_outline([vertices[k] for k in own]) or min(uvs) < 0 or not all(map(self.is_finite, uvs)):
+        if not is_outline([vertices[k] for k in own]) or not self.are_there(vertices, uvs):
             return False
         self.others_before.append(len(self.others))
         for k in own:
@@ -152,14 +162,16 @@ class Reader:
             if isinstance(record, tuple) and len(record) == 3:
                 keyword, vertices, uvs = record
                 own = [0 <= uv < len(self.uvs) and uv not in shared for uv in uvs]
+                vertices = [v if 0 <= v < len(self.positions) else "none" for v in vertices]
                 yield keyword, vertices, [repr(self.uvs[uv]) if kept else "" for uv, kept in zip(uvs, own, strict=True)]
             else:
                 yield record
 
 
 def read_obj(path):
-    reader = Reader()
-    for line in logical_lines(Path(path).read_bytes()):
+    lines = list(logical_lines(Path(path).read_bytes()))
+    reader = Reader(lines)
+    for line in lines:
         reader.read(line)
     uv_table = np.array(reader.uvs, dtype=float).reshape(-1, 2)
     others = list(reader.elements())

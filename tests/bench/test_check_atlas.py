@@ -10,7 +10,9 @@ import check_atlas
 import numpy as np
 import pytest
 from borders import Boundary
-from exact import exactly_touch
+from exact import exactly_touch, polygon_is_simple
+from obj_text import read_obj
+from taking_part import keeps_uvs, near_edges
 from topology import Topology
 
 SHEET = 3  # quads along a side of a sheet
@@ -454,3 +456,60 @@ def test_command_line(tmp_path):
     assert run(tmp_path / "a.obj", tmp_path / "a.obj", "--pe-bound", "0.8", "--aspect", "square").returncode == 1
     assert run(tmp_path / "a.obj", tmp_path / "a.obj", "--pe-bound", "0.8", "--aspect", "wide").returncode == 2
     assert run(tmp_path / "a.obj", tmp_path / "missing.obj").returncode == 2
+
+
+SQUARE, HOLE = [(0, 0), (3, 0), (3, 3), (0, 3)], [(1, 1), (1, 2), (2, 2), (2, 1)]
+KEYHOLES = {
+    "good": ([*SQUARE, SQUARE[0], *HOLE, HOLE[0]], True),
+    "turned over": ([*SQUARE, SQUARE[0], *HOLE, HOLE[0]][::-1], False),
+    "hole wound like the outline": ([*SQUARE, SQUARE[0], HOLE[0], *HOLE[:0:-1], HOLE[0]], False),
+    "hole outside": ([*SQUARE, SQUARE[0], *((x - 4, y) for x, y in HOLE), (-3, 1)], False),
+    "hole across the outline": ([*SQUARE, SQUARE[0], *((x + 1.5, y) for x, y in HOLE), (2.5, 1)], False),
+    "bridge through the hole": ([*SQUARE, SQUARE[0], *HOLE[2:], *HOLE[:2], HOLE[2]], False),
+    "a spike": ([*SQUARE, (0, 0), (1, 1)], False),
+}
+
+
+@pytest.mark.parametrize("case", KEYHOLES)
+def test_keyholes(case):
+    points, good = KEYHOLES[case]
+    assert polygon_is_simple([(float(x), float(y)) for x, y in points]) is good
+
+
+def test_nothing_takes_part(tmp_path):
+    text = text_of(sheet(0, 0, 0))
+    charts = [{"fate": "left", "face_ranges": [[0, SHEET**2 - 1]]}]
+    found = check(tmp_path, text, text, charts=charts)
+    assert found["ok"], found["problems"]
+    assert found["faces"] == 0
+
+
+def test_faces_without_area_in_space_only(tmp_path):
+    """None of them has a shape that it could lose."""
+    flat = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, 0.0, 0.0)]
+    text = text_of(mesh([(0, 0), (1, 0), (0, 1)], [(0, 1, 2)], flat))
+    assert check(tmp_path, text, text)["e_d"] == 1
+
+
+def test_a_follower_may_have_a_vertex_on_its_leaders_edge(tmp_path):
+    (tmp_path / "a.obj").write_text(text_of(sheet(0, 0, 1)))
+    obj = read_obj(tmp_path / "a.obj")
+    points = np.array([[0.1, 0], [0.1, 1e-6], [1 / 3, 0.2], [0.1, 0.1], [-0.1, 0]])
+    assert near_edges(points, obj, 1e-9).tolist() == [True, False, True, False, False]
+
+
+@pytest.mark.parametrize(
+    ("uv", "parts", "good"),
+    [
+        ("0.5 0", "f 1/1 4/4 2/2 3/3", True),
+        ("0.5 0", "f 1/1 4/4 3/3\nf 4/4 2/2 3/3", True),
+        ("0.5 0.1", "f 1/1 4/4 2/2 3/3", False),
+        ("0.5 0", "f 1/2 4/4 2/2 3/3", False),
+    ],
+)
+def test_a_face_that_was_left_may_get_a_point(tmp_path, uv, parts, good):
+    text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.5 0 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt " + uv + "\n"
+    for name, faces in (("a", "f 1/1 2/2 3/3"), ("b", parts)):
+        (tmp_path / f"{name}.obj").write_text(text + faces + "\n")
+    before, after = (read_obj(tmp_path / f"{name}.obj") for name in "ab")
+    assert keeps_uvs(before, after, np.zeros(after.faces, dtype=int)) is good

@@ -1,7 +1,11 @@
 """The checker on results that cut: it accepts faces divided rightly and finds each way of dividing them wrongly."""
 
 import check_atlas
+import check_cut
+import numpy as np
+import obj_text
 import pytest
+from topology import Topology
 
 # Two triangles that share the edge 1-3, each in a half of the unit square, and a quad that is not flat; the quad's UVs lie apart.
 BEFORE = """mtllib a.mtl
@@ -169,3 +173,59 @@ def test_collection(tmp_path):
     good = run("a", "b")
     assert (good["problems"], good["charts"], good["faces"]) == ([], 6, 10)
     assert "borders" in " ".join(run("a", "a")["problems"])
+
+
+def test_a_vertex_that_two_faces_have_twice(tmp_path):
+    """Both faces at the diagonal have its new vertex at one place, but not the same one."""
+    twice = APART.replace("vt 0 0\n", "v 0.5 0.5 0 0.5 0 0.5\nvt 0 0\n", 1).replace(BESIDE, BESIDE.replace("7/9/3", "8/9/3"))
+    assert problems(tmp_path, twice) == "surface: edges of length 2.83 have doubled vertices where the input has one"
+    apart = BEFORE.replace("v 2 0 0.5", "v 1 1 0\nv 0 0 0\nv 2 0 0.5").replace("f 2/5 5/6 6/7 3/8", "f 2/5 7/6 8/7 3/8")
+    unwelded = apart.replace("f 1/1/1 3/3/2 4/4/1", "f 6/1/1 5/3/2 4/4/1")
+    assert check_cut.open_length(read(tmp_path, unwelded), by_index=True) > check_cut.open_length(
+        read(tmp_path, apart), by_index=True
+    )
+
+
+def read(tmp_path, text):
+    (tmp_path / "read.obj").write_text(text)
+    return obj_text.read_obj(tmp_path / "read.obj")
+
+
+# A triangle, one without area in space on the edge that it shares with a third.
+FLAT_BETWEEN = "v 0 0 0\nv 2 0 0\nv 1 1 0\nv 1 0 0\nv 1 -1 0\nvt 0 0\nvt 1 0\nvt .5 .5\nvt .5 -.1\nvt .5 -.6\n"
+ACROSS = "f 1/1 2/2 3/3\nf 1/1 4/4 2/2\nf 1/1 5/5 4/4\nf 4/4 5/5 2/2\n"
+
+
+def test_faces_without_area_are_not_lost(tmp_path):
+    """The middle one lies on its neighbour as a whole: each face has a part of its own all the same."""
+    before = FLAT_BETWEEN + "f 1/1 4/4 2/2\nf 1/1 2/2 3/3\n"
+    after = before.replace("f 1/1 4/4 2/2", "f 1/1 6/6 2/2\nf 6/6 4/4 2/2").replace("vt 0 0", "v 0.5 0 0\nvt 0 0")
+    assert list(check_cut.Division(read(tmp_path, before), read(tmp_path, before)).sources) == [0, 1]
+    found = check_cut.Division(read(tmp_path, before), read(tmp_path, after.replace("6/6", "6/5")))
+    assert (found.problem, list(found.sources)) == ("", [0, 0, 1])
+
+
+def test_faces_joined_across_one_without_area_may_be_joined(tmp_path):
+    obj = read(tmp_path, FLAT_BETWEEN + ACROSS)
+    topology = Topology(obj, as_meant=True)
+    f, g = topology.face, topology.face[topology.partner]
+    joined = topology.partner >= 0
+    pairs = check_cut.joined_across(f[joined], g[joined], np.array([False, True, False, False]))
+    assert {tuple(pair) for pair in pairs.T.tolist()} == {(a, b) for a in range(4) for b in range(a + 1, 4)}
+    none = check_cut.joined_across(f[joined], g[joined], np.zeros(4, dtype=bool))
+    assert none.shape == (2, 0)
+
+
+def test_sides_that_are_one_point_in_the_uvs_have_no_seam(tmp_path):
+    """The edge 1-2 is a point at both of its faces, which differ by noise; farther apart it is a seam."""
+    text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nvt 0 0\nvt 1 1\nvt {u} 0\nvt 1 -1\nf 1/1 2/1 3/2\nf 2/3 1/3 4/4\n"
+    for u, pairs in ((1e-8, [[0, 1]]), (0.01, [])):
+        obj = read(tmp_path, text.format(u=u))
+        assert check_cut.collapsed_alike(obj, Topology(obj, as_meant=True)).T.tolist() == pairs
+
+
+@pytest.mark.parametrize("bad", ["1/1 2/2 -9/3", "1/1 2/2 0/3", "1/1 2/2 9/3", "1/1 2/2 3/99", "1/1 7/2 3/3"])
+def test_faces_that_name_what_is_not_there_are_not_in_the_atlas(tmp_path, bad):
+    obj = read(tmp_path, BEFORE + f"f {bad}\nv nan 0 0\n")
+    assert obj.faces == 3
+    assert len(obj.other_records) == len(read(tmp_path, BEFORE).other_records) + 1

@@ -127,6 +127,8 @@ def elements(obj):
 def distortion(obj, triangles, share=None):
     """E_d, eq. (9), under the global scale that minimises it, and the 99 % and largest stretch under that scale."""
     double_area, sliver, square, det = jacobians(obj, triangles)
+    if sliver.all():
+        return 1.0, 1.0, 1.0  # nothing has a shape that it could lose
     double_area, square, det = double_area[~sliver], square[~sliver], np.abs(det[~sliver])
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         inverse_square = square / det**2

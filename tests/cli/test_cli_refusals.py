@@ -15,7 +15,7 @@ FACE = "f 1/1 2/2 3/3 4/4\n"
 BAD_FILES = {
     "empty": ("", "is empty"),
     "no faces": (QUAD, "has no faces"),
-    "binary": ("\x89PNG\r\n\x1a\n\x00\x01\x02", "has no faces"),
+    "binary": ("\x88\r\n\x1a\n\x00\x01\x02", "has no faces"),
     "no UVs": (QUAD + "f 1 2 3 4\n", "has no UVs"),
     "no UVs, normals": (QUAD + "vn 0 0 1\nf 1//1 2//1 3//1\n", "has no UVs"),
     "no face with UVs at all corners": (QUAD + "f 1/1 2/2 3\n", "has no UVs: no face has a vt index at each of its corners"),
@@ -25,7 +25,10 @@ BAD_FILES = {
     "NaN UV": (QUAD.replace("vt 1 0", "vt NaN 0") + FACE, "line 6: a UV that is not finite"),
     "infinite UV": (QUAD.replace("vt 1 0", "vt 1 inf") + FACE, "line 6: a UV that is not finite"),
     "text for a number": (QUAD.replace("v 1 1 0", "v 1 one 0") + FACE, "line 3: 'one' is not a number"),
-    "no number of a Windows program": (QUAD.replace("vt 1 0", "vt 1.#QNAN 0") + FACE, "line 6: a UV that is not finite: '1.#QNAN 0'"),
+    "no number of a Windows program": (
+        QUAD.replace("vt 1 0", "vt 1.#QNAN 0") + FACE,
+        "line 6: a UV that is not finite: '1.#QNAN 0'",
+    ),
     "decimal comma": (QUAD.replace("vt 1 0", "vt 1,0 0") + FACE, "line 6: '1,0' is not a number"),
     "short position": (QUAD.replace("v 1 1 0", "v 1 1") + FACE, "line 3: a vertex position with too few numbers"),
     "vt without numbers": (QUAD.replace("vt 1 0", "vt") + FACE, "line 6: a vt record without a number"),
@@ -100,6 +103,14 @@ FOREIGN_FILES = {
     "ASCII USD": (b"#usda 1.0\n(\n)\n", "a USD file"),
     "USD crate": (b"PXR-USDC" + bytes(40), "a USD file"),
     "USDZ": (b"PK\x03\x04" + bytes(26) + b"model.usdc", "a USD file"),
+    "PNG": (b"\x89PNG\r\n\x1a\n\x00\x01\x02", "a PNG image"),
+    "xz": (b"\xfd7zXZ\x00" + bytes(30), "an xz file"),
+    "OFF": (b"OFF\n8 6 0\n0 0 0\n", "an OFF file"),
+    "HTML": (b"\n<!DOCTYPE html>\n<html><body>404</body></html>\n", "an HTML page"),
+    "Git LFS": (
+        b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n",
+        "a pointer of Git LFS, whose file is to be fetched with git lfs pull",
+    ),
     "zip": (b"PK\x03\x04" + bytes(26) + b"model.obj", "a zip file"),
     "COLLADA": (b'<?xml version="1.0"?>\n<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema">', "a COLLADA file"),
 }

@@ -9,6 +9,7 @@
 #include "atlas_refine/refine.h"
 #include "closed_shapes.h"
 #include "refine_checks.h"
+#include "shapes.h"
 #include "small_atlases.h"
 
 namespace atlas_refine {
@@ -55,6 +56,17 @@ TEST(UnwrapTiles, ATorusIsUnwrappedBothWays) {
   EXPECT_EQ(out.faces.size(), 24u + 12u - 1);
   EXPECT_EQ(out.torn.size(), 24u + 12u);
   EXPECT_TRUE(validate(testing::with_corner_uvs(torus, out.corner_uvs)).valid());
+}
+
+TEST(UnwrapTiles, AVertexWhoseUvWasLostIsNoMapThatStartsAgain) {
+  for (const int lost : {121, 144, 60, 222}) {
+    Atlas atlas = shapes::quad_grid(20, 20);
+    const std::vector<Vec2> before = atlas.corner_uvs;
+    for (int c = 0; c < atlas.corner_count(); ++c)
+      atlas.corner_uvs[c] = atlas.corner_vertices[c] == lost ? Vec2(Vec2::Zero()) : Vec2(3 * before[c]);
+    EXPECT_TRUE(unwrap_tiles(atlas, {}, {}).torn.empty()) << lost;
+    EXPECT_EQ(refine(atlas, {.pe_bound = 0.7}).added_seams, 0) << lost;
+  }
 }
 
 TEST(UnwrapTiles, LargeFacesStay) {

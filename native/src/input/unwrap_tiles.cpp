@@ -50,10 +50,12 @@ struct Lie {
   int turned = 0, unturned = 0;  // faces that another image suits better: that lie the wrong way round, and that do not
   int against = 0;               // others that lie the wrong way round
   bool parted = false;           // with these images
+  int torn = 0, met = 0;         // with these images: edges of moved faces, and those of them where the map starts again
 
   /// Where the chart falls apart, or lies all one way before, or still does not, its map does not start again. (A face that
-  /// runs back in u and in v is turned over twice.)
-  bool is_mended() const { return !parted && turned > unturned && against <= kMostAgainst * turned; }
+  /// runs back in u and in v is turned over twice.) Nor does it where moved faces are torn from each other more than they meet
+  /// faces at the other end of the tile: around a vertex whose UV was lost.
+  bool is_mended() const { return !parted && turned > unturned && against <= kMostAgainst * turned && 2 * met >= torn; }
   bool tells() const { return !kept && uv_area > 0 && area > 0 && spanned <= kMostWrapped * (area + spanned); }
 
   /// How badly a face fits: by density, and by orientation.
@@ -82,6 +84,7 @@ class Unwrapping {
         ++(against ? lie.turned : lie.unturned);
     }
     mark_parted(moved(images).corner_uvs);
+    count_torn(moved(images));
     UnwrappedTiles out = moved(images);
     if (out.faces.empty()) return {};
     for (const int f : out.faces) find_torn(f, out);
@@ -138,6 +141,18 @@ class Unwrapping {
     for (int f = 0; f < atlas_.face_count(); ++f) {
       const int chart = charts_of_.find(f);
       if (parts.find(f) != parts.find(chart)) lies_[chart].parted = true;
+    }
+  }
+
+  /// At moved faces, by their charts.
+  void count_torn(const UnwrappedTiles& out) {
+    for (const int f : out.faces) {
+      for (int c = atlas_.face_offsets[f]; c < atlas_.face_offsets[f + 1]; ++c) {
+        if (joins_.partners[c] < 0 || !is_torn(c, out.corner_uvs)) continue;
+        Lie& lie = lies_[charts_of_.find(f)];
+        ++lie.torn;
+        lie.met += !spans_[joins_.corner_faces[joins_.partners[c]]];
+      }
     }
   }
 
