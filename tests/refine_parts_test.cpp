@@ -1,6 +1,7 @@
 // Who takes part: charts without UV area, faces without UVs, stacks, groups, tiles; what stays keeps its bits.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -235,6 +236,59 @@ TEST(Stacks, ChartsOfWhichOneHasATipAreCutAlike) {
     const std::set<std::array<int, 2>> seams(result.cut->new_seams.begin(), result.cut->new_seams.end());
     EXPECT_EQ(seams.size(), result.cut->new_seams.size()) << "a seam is named twice";
   }
+}
+
+/// Every face begins at its next corner: the fan has the other diagonal.
+Atlas begun_elsewhere(Atlas atlas) {
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    const int begin = atlas.face_offsets[f], end = atlas.face_offsets[f + 1];
+    std::rotate(atlas.corner_vertices.begin() + begin, atlas.corner_vertices.begin() + begin + 1,
+                atlas.corner_vertices.begin() + end);
+    std::rotate(atlas.corner_uvs.begin() + begin, atlas.corner_uvs.begin() + begin + 1, atlas.corner_uvs.begin() + end);
+  }
+  return atlas;
+}
+
+/// Every face as its fan.
+Atlas in_triangles(const Atlas& atlas) {
+  Atlas out{atlas.name, atlas.positions, {0}, {}, {}};
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    for (int c = atlas.face_offsets[f] + 1; c + 1 < atlas.face_offsets[f + 1]; ++c) {
+      for (const int corner : {atlas.face_offsets[f], c, c + 1}) {
+        out.corner_vertices.push_back(atlas.corner_vertices[corner]);
+        out.corner_uvs.push_back(atlas.corner_uvs[corner]);
+      }
+      out.face_offsets.push_back(out.corner_count());
+    }
+  }
+  return out;
+}
+
+TEST(Stacks, PolygonsThatAreDividedOtherwiseAreCutAlike) {
+  const Atlas one = shapes::quad_band(16, 4);
+  const Atlas atlas = shapes::combine({one, begun_elsewhere(one)});
+  for (const Cut cut : {Cut::Split, Cut::Edges}) {
+    const RefineResult result = refine(atlas, {.pe_bound = 0.85, .seams = Seams::Rectangles, .cut = cut});
+    ASSERT_EQ(result.intervention, Intervention::Cut);
+    EXPECT_EQ(result.charts[1].fate, Fate::Stacked);
+    EXPECT_FALSE(says(result.warnings, "placed apart"));
+    if (result.cut) expect_whole_cut(atlas, *result.cut);
+    EXPECT_EQ(result.cut.has_value(), cut == Cut::Split);
+  }
+}
+
+TEST(Stacks, OfOtherPolygonsArePartedOnlyWhereTheyAreCut) {
+  const Atlas band = shapes::quad_band(16, 4), sheet = shapes::quad_grid(8, 4);
+  for (const Seams seams : {Seams::Needed, Seams::Rectangles}) {
+    const Atlas atlas = shapes::combine({sheet, in_triangles(sheet)});
+    const RefineResult result = refine(atlas, {.pe_bound = 0.9, .seams = seams});
+    EXPECT_EQ(result.charts[1].fate, Fate::Stacked);
+    EXPECT_FALSE(says(result.warnings, "placed apart"));
+  }
+  const RefineResult result = refine(shapes::combine({band, in_triangles(band)}), {.pe_bound = 0.85, .seams = Seams::Rectangles});
+  ASSERT_EQ(result.intervention, Intervention::Cut);
+  EXPECT_NE(result.charts[1].fate, Fate::Stacked);
+  EXPECT_TRUE(says(result.warnings, "placed apart"));
 }
 
 TEST(Stacks, AreSeparatedWhereAsked) {

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "atlas_refine/error.h"
 #include "geometry/boundary.h"
 #include "input/check_atlas.h"
 #include "input/join_edges.h"
+#include "input/leaders_triangles.h"
 #include "input/take_part.h"
 #include "input/unwrap_tiles.h"
 #include "one_atlas.h"
@@ -118,6 +121,41 @@ std::vector<char> either(const std::vector<char>& one, const std::vector<char>& 
   return out;
 }
 
+/// Followers whose leaders were cut in a way that they cannot follow.
+void set_apart(const InputAtlas& whole, const Participants& participants, const std::vector<Done>& done, std::set<int>& apart) {
+  std::vector<int> pieces(whole.set.charts.size(), 0);
+  std::vector<char> cut(whole.set.charts.size(), 0);
+  for (const auto& [part, outcome] : done) {
+    for (const Piece& piece : outcome.atlas.pieces) {
+      const int k = part.charts[piece.chart];
+      cut[k] = cut[k] || ++pieces[k] > 1 || !is_whole(piece, whole.set.charts[k]);
+    }
+  }
+  for (const Follower& follower : participants.followers) {
+    if (cut[follower.leader] && !follower.same_polygons) apart.insert(follower.chart);
+  }
+}
+
+/// All atlases of the call. Only where a chart is really cut those on it whose polygons are others get a place of their own, and
+/// the atlases are refined anew with them.
+std::pair<Participants, std::vector<Done>> refine_with_stacks(InputAtlas& whole, const std::vector<char>& has_uvs,
+                                                              const RefineOptions& options, Monitor& monitor, Journal& journal) {
+  const Journal::Mark mark = journal.mark();
+  std::set<int> apart;
+  while (true) {
+    Participants participants = take_part(whole.set, options, has_uvs, apart);
+    for (const Follower& follower : participants.followers) {
+      if (follower.same_polygons) divide_as_leader(whole.atlas, follower, whole.set);
+    }
+    std::vector<Done> done =
+        refine_parts(whole, participants, with_kept_leaders(whole.set, participants.followers, options), monitor, journal);
+    const std::size_t before = apart.size();
+    set_apart(whole, participants, done, apart);
+    if (apart.size() == before) return {std::move(participants), std::move(done)};
+    journal.back_to(mark);
+  }
+}
+
 RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, const RefineOptions& options, Monitor& monitor,
                           Journal& journal) {
   journal.begin_stage("input", kInput);
@@ -125,11 +163,9 @@ RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, 
   std::optional<Atlas> moved;
   if (!tiles.faces.empty()) (moved = input)->corner_uvs = tiles.corner_uvs;
   const Atlas& atlas = moved ? *moved : input;
-  const InputAtlas whole = read_atlas(atlas, options.box_aspect, options.groups);
-  Participants participants = take_part(whole.set, options, has_uvs);
+  InputAtlas whole = read_atlas(atlas, options.box_aspect, options.groups);
   journal.show("input", charts_as_placed(whole.set));
-  std::vector<Done> done =
-      refine_parts(whole, participants, with_kept_leaders(whole.set, participants.followers, options), monitor, journal);
+  auto [participants, done] = refine_with_stacks(whole, has_uvs, options, monitor, journal);
   RefineResult result;
   summarise(whole, participants, options, done, result);
   tell_of(participants, done, journal);

@@ -78,6 +78,24 @@ TEST(RepairCharts, OneFlippedTriangleInAChartThatIsAllButALineHasItEmbeddedAnew)
   EXPECT_EQ(only_repair(atlas).what, What::Embedded);
 }
 
+TEST(RepairCharts, FacesThatAVertexDrewOutHaveNoShapeToKeep) {
+  const Atlas good = shapes::quad_grid(20, 20);
+  for (const Vec2& at : {Vec2(0.65, 0.9), Vec2(0.5, 0.5), Vec2(0.9, 0.1)}) {
+    const Chart before = testing::charts_of(good)[0];
+    const Chart drawn = testing::charts_of(with_vertex_moved(good, at, -at))[0];
+    const Chart after = repaired({drawn}).atlas.pieces[0].mesh;
+    std::vector<Triangle> untouched;
+    std::vector<RestTriangle> shapes_before;
+    for (const Triangle& t : before.triangles) {
+      if (std::any_of(t.begin(), t.end(), [&](int v) { return before.uvs[v] != drawn.uvs[v]; })) continue;
+      untouched.push_back(t);
+      shapes_before.push_back(rest_from_plane(before.uvs[t[0]], before.uvs[t[1]], before.uvs[t[2]], 1));
+    }
+    ASSERT_LT(untouched.size(), before.triangles.size());
+    EXPECT_LE(dirichlet_sums(shapes_before, untouched, after.uvs).best_energy(), 1.02) << at.transpose();
+  }
+}
+
 TEST(RepairCharts, FarFromTheBadTriangleNothingMoves) {
   const Atlas atlas = with_vertex_moved(shapes::mesh(shapes::disk(0.5), 0.03), {0.3, 0}, {0.045, 0});
   const Chart before = testing::charts_of(atlas)[0];

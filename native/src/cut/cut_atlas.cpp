@@ -196,6 +196,11 @@ CutAtlas cut_along(const CutAtlas& atlas, const std::vector<Chart>& sources, std
   return out;
 }
 
+bool is_whole(const Piece& piece, const Chart& chart) {
+  const bool divided = std::any_of(piece.points.begin(), piece.points.end(), [](int p) { return p >= 0; });
+  return !divided && piece.mesh.vertex_count() == chart.vertex_count();
+}
+
 SplitMesh mesh_of(const Piece& piece) {
   SplitMesh mesh(piece.mesh);
   mesh.sources = piece.sources;

@@ -56,6 +56,9 @@ CutAtlas divided_atlas(const std::vector<SplitMesh>& meshes, const std::vector<C
 /// Takes pieces apart along the paths. `sources` are the charts of the input.
 CutAtlas cut_along(const CutAtlas& atlas, const std::vector<Chart>& sources, std::span<const SurfacePath> paths);
 
+/// True where nothing of the chart is divided or cut open in a piece that has all of it.
+bool is_whole(const Piece& piece, const Chart& chart);
+
 /// A piece that can be divided and cut.
 SplitMesh mesh_of(const Piece& piece);
 

@@ -2,12 +2,12 @@
 #include "input/stacks.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <set>
 
+#include "input/leaders_triangles.h"
 #include "measure/distortion.h"
 
 namespace atlas_refine {
@@ -65,16 +65,6 @@ std::set<std::pair<int, int>> border(const Chart& chart, const std::vector<int>&
   return edges;
 }
 
-std::vector<std::array<int, 3>> triangle_sets(const Chart& chart, const std::vector<int>& name) {
-  std::vector<std::array<int, 3>> out;
-  for (const Triangle& t : chart.triangles) {
-    std::array<int, 3>& set = out.emplace_back(std::array<int, 3>{name[t[0]], name[t[1]], name[t[2]]});
-    std::sort(set.begin(), set.end());
-  }
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
 std::optional<Follower> follower_of(const std::vector<Chart>& charts, int chart, const Leader& leader, double tolerance) {
   const Chart &own = charts[chart], &onto = charts[leader.chart];
   if (own.vertex_count() != onto.vertex_count()) return std::nullopt;
@@ -83,7 +73,7 @@ std::optional<Follower> follower_of(const std::vector<Chart>& charts, int chart,
   std::vector<int> identity(onto.vertex_count());
   std::iota(identity.begin(), identity.end(), 0);
   if (border(own, *vertices) != border(onto, identity)) return std::nullopt;
-  const bool same = triangle_sets(own, *vertices) == triangle_sets(onto, identity);
+  const bool same = same_polygons(own, onto, *vertices);
   return Follower{chart, leader.chart, std::move(*vertices), same};
 }
 

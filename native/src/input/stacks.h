@@ -12,7 +12,7 @@ struct Follower {
   int chart;
   int leader;                 ///< no follower itself
   std::vector<int> vertices;  ///< one per vertex of the chart: the leader's vertex that it lies on
-  bool same_triangles;        ///< the triangles lie on each other too
+  bool same_polygons;         ///< the polygons lie on each other too: it can follow cuts
 };
 
 /// Followers among `candidates`, indices of charts where their UVs lie (either sense of winding). A chart follows the first

@@ -75,7 +75,8 @@ double collapse_side(const ChartSet& set) {
   return std::min(kTile, uv_box(set.charts).size().maxCoeff());
 }
 
-Participants take_part(const ChartSet& set, const RefineOptions& options, const std::vector<char>& has_uvs) {
+Participants take_part(const ChartSet& set, const RefineOptions& options, const std::vector<char>& has_uvs,
+                       const std::set<int>& apart) {
   Participants out;
   std::map<int, std::vector<int>> groups;
   const double side = collapse_side(set);
@@ -99,8 +100,7 @@ Participants take_part(const ChartSet& set, const RefineOptions& options, const 
       for (Follower& follower : find_stacks(placed, leaders_first(set, charts, options.locked), kOnEachOther * side)) {
         // What was one chart, folded, was not put on itself on purpose.
         if (fold[follower.chart] >= 0 && fold[follower.chart] == fold[follower.leader]) continue;
-        // A cut can be followed by the same triangles only.
-        if (options.seams != Seams::None && !follower.same_triangles) {
+        if (apart.contains(follower.chart)) {
           out.unstacked.push_back(follower.chart);
           continue;
         }

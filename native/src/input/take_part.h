@@ -1,6 +1,7 @@
 // Which charts are refined, in which atlas, and which are not.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,9 @@ struct Participants {
 
 /// Left: charts whose UVs are all on a point or a line, unless they are to be embedded, and charts of faces without finite
 /// UVs (`has_uvs` false; empty: all have). Followers: as RefineOptions::stacks says, within one group; charts that are not
-/// mirrored, locked ones before, lead; parts of one folded chart do not follow each other.
-Participants take_part(const ChartSet& set, const RefineOptions& options, const std::vector<char>& has_uvs);
+/// mirrored, locked ones before, lead; parts of one folded chart do not follow each other, nor do charts in `apart`.
+Participants take_part(const ChartSet& set, const RefineOptions& options, const std::vector<char>& has_uvs,
+                       const std::set<int>& apart = {});
 
 /// True where the chart's UVs lie on a point or a line: within 1e-6 of `box_side`, or of its own length. Few vertices that are
 /// far from all others, which are none of it, do not make a line of the rest.

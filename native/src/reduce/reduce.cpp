@@ -308,8 +308,11 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
   Schedule schedule = problem.warm ? warm_schedule(problem.warm->price, task.view(at, 0))
                                    : first_schedule(relaxing, task.view(at, relaxing ? kMostMargin : 0),
                                                     relaxing ? least_slack(model, at.state) : 1);
-  if (!std::isfinite(at.energy) || !std::isfinite(barrier(model, at.state, find_contacts(model, at.state))))
-    return result_of(task, best, ReduceStatus::Stalled, 0, 0);
+  if (!std::isfinite(at.energy) || !std::isfinite(barrier(model, at.state, find_contacts(model, at.state)))) {
+    ReduceResult out = result_of(task, best, ReduceStatus::Stalled, 0, 0);
+    out.first_energy = out.least_energy = first_energy;
+    return out;
+  }
   Counters counters;
   TriangleSlots slots;
   BlockSystem system;

@@ -1,7 +1,9 @@
 // Orientation tests, and heights.
 #include "repair/bad_triangles.h"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/plane.h"
@@ -9,6 +11,29 @@
 #include "geometry/rest_triangle.h"
 
 namespace atlas_refine {
+namespace {
+
+/// e-folds from the chart's median stretch, above which a triangle at a bad one is drawn out.
+constexpr double kDrawnOut = 1.2;
+
+/// Logarithms of the largest and the least stretch of a positive triangle against the surface.
+std::array<double, 2> log_stretch(const Chart& chart, std::size_t t) {
+  const Triangle& v = chart.triangles[t];
+  const RestTriangle uv = rest_from_plane(chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]], 1);
+  if (uv.area == 0 || chart.surface[t].area == 0) return {INFINITY, -INFINITY};
+  const Mat2 j = uv.inverse_edges.inverse() * chart.surface[t].inverse_edges;
+  const double sum = std::hypot(j(0, 0) + j(1, 1), j(1, 0) - j(0, 1)), diff = std::hypot(j(0, 0) - j(1, 1), j(1, 0) + j(0, 1));
+  const double largest = 0.5 * (sum + diff);
+  return {std::log(largest), std::log(std::abs(j.determinant()) / largest)};
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
 
 constexpr double kRounding = 1e-13;  // of the chart's size: triangles lower than that may flip where the chart is moved
 
@@ -21,6 +46,27 @@ std::vector<char> bad_triangles(const Chart& chart) {
     const double longest = std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
     const bool flat = doubled_area(a, b, c) < longest * std::max(kSliverHeight * longest, least);
     bad.push_back(flat || orientation(a, b, c) <= 0);
+  }
+  return bad;
+}
+
+std::vector<char> misshapen_triangles(const Chart& chart) {
+  std::vector<char> bad = bad_triangles(chart);
+  std::vector<char> at_bad(chart.vertex_count(), 0);
+  std::array<std::vector<double>, 2> stretch;  // of the good ones
+  for (std::size_t t = 0; t < bad.size(); ++t) {
+    for (const int v : chart.triangles[t]) at_bad[v] = at_bad[v] || bad[t];
+    if (bad[t]) continue;
+    const auto own = log_stretch(chart, t);
+    for (int k = 0; k < 2; ++k) stretch[k].push_back(own[k]);
+  }
+  if (stretch[0].empty() || stretch[0].size() == bad.size()) return bad;
+  const std::array<double, 2> usual{median(stretch[0]), median(stretch[1])};
+  for (std::size_t t = 0; t < bad.size(); ++t) {
+    const Triangle& v = chart.triangles[t];
+    if (bad[t] || (!at_bad[v[0]] && !at_bad[v[1]] && !at_bad[v[2]])) continue;
+    const auto own = log_stretch(chart, t);
+    bad[t] = std::max(std::abs(own[0] - usual[0]), std::abs(own[1] - usual[1])) > kDrawnOut;
   }
   return bad;
 }
@@ -38,7 +84,17 @@ DirichletSums sums_of_good(const Chart& chart) {
 }
 
 double distortion_to_good(const Chart& before, const Chart& after) {
-  return dirichlet_sums_between({before}, {after}).best_energy();
+  const std::vector<char> misshapen = misshapen_triangles(before);
+  if (misshapen == bad_triangles(before)) return dirichlet_sums_between({before}, {after}).best_energy();
+  std::vector<RestTriangle> shapes;
+  std::vector<Triangle> triangles;
+  for (std::size_t t = 0; t < misshapen.size(); ++t) {
+    const Triangle& v = before.triangles[t];
+    if (misshapen[t]) continue;
+    shapes.push_back(rest_from_plane(before.uvs[v[0]], before.uvs[v[1]], before.uvs[v[2]], 1));
+    triangles.push_back(v);
+  }
+  return dirichlet_sums(shapes, triangles, after.uvs).best_energy();
 }
 
 }  // namespace atlas_refine

@@ -11,10 +11,14 @@ namespace atlas_refine {
 /// One flag per triangle: flipped, without area, or positive by rounding only: a sliver.
 std::vector<char> bad_triangles(const Chart& chart);
 
-/// From the surface to the UVs, over the other triangles: best_energy() is their E_d.
+/// The same, and triangles at a vertex of a bad one that are positive and yet drawn out with it: their stretch against the
+/// surface is far from what the chart has elsewhere. They have no shape to keep.
+std::vector<char> misshapen_triangles(const Chart& chart);
+
+/// From the surface to the UVs, over the triangles that are not bad: best_energy() is their E_d.
 DirichletSums sums_of_good(const Chart& chart);
 
-/// E_2 of `after` to the UVs of `before`, over the triangles that are positive there.
+/// E_2 of `after` to the UVs of `before`, over the triangles that have a shape there.
 double distortion_to_good(const Chart& before, const Chart& after);
 
 }  // namespace atlas_refine

@@ -2,8 +2,11 @@
 #include "repair/repair_charts.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "cut/open_closed.h"
 #include "geometry/guards.h"
@@ -21,6 +24,8 @@ using What = ChartRepair::What;
 
 // E_2 above which an embedding anew may serve better, and E_d above which UVs have no shape worth keeping.
 constexpr double kShapeLost = 1.5;
+// E_2 up to which a chart that was mended in place needs no comparison with an embedding.
+constexpr double kShapeKept = 1.02;
 // E_d above which a chart that was mended in place is all but a line: its shape is not worth keeping.
 constexpr double kLine = 100;
 
@@ -94,19 +99,35 @@ std::optional<Chart> drawn_apart(const Chart& chart, const std::optional<Chart>&
   return apart;
 }
 
+/// The first of those that keep the good triangles' shapes best.
+Mended best_kept(const Chart& chart, const std::vector<std::pair<std::optional<Chart>, What>>& candidates) {
+  const Chart* best = nullptr;
+  What what = What::Embedded;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [candidate, by] : candidates) {
+    const double loss = candidate ? distortion_to_good(chart, *candidate) : least;
+    if (loss < least) std::tie(best, what, least) = std::tuple(&*candidate, by, loss);
+  }
+  return mended(*best, what);
+}
+
 /// In place or at least with the good triangles' shapes; else in place or anew, whichever is less distorted.
 Mended mend_disk(const Chart& chart, const std::vector<char>& bad, const RepairOptions& options, Monitor& monitor) {
   std::optional<Chart> in_place;
+  double loss = std::numeric_limits<double>::infinity();  // of the good triangles' shapes, in place
   if (!any(bad)) {
     if (const auto parted = part_touching(chart)) return mended(*parted, What::Parted);
   } else if (!mostly_bad(chart, bad)) {
     in_place = untangle_chart(chart, options.may_overlap, options.threads, monitor);
-    const bool kept = in_place && distortion_to_good(chart, *in_place) < kShapeLost && energy(*in_place) < kLine;
-    if (kept) return mended(*in_place, What::Untangled);
+    if (in_place && energy(*in_place) < kLine) loss = distortion_to_good(chart, *in_place);
+    if (loss <= kShapeKept) return mended(*in_place, What::Untangled);
   }
+  const bool kept = loss < kShapeLost;
   const auto start = spread_out(chart, options.threads, monitor);
-  if (const auto apart = drawn_apart(chart, start, bad, options, monitor)) return mended(*apart, What::DrawnApart);
+  const auto apart = drawn_apart(chart, start, bad, options, monitor);
+  if (apart && !kept) return mended(*apart, What::DrawnApart);
   const auto embedded = embed_where(start, chart, Shapes::OfSurface, options, monitor);
+  if (kept) return best_kept(chart, {{in_place, What::Untangled}, {apart, What::DrawnApart}, {embedded, What::Embedded}});
   if (in_place && (!embedded || energy(*in_place) < energy(*embedded))) return mended(*in_place, What::Untangled);
   if (embedded) return mended(*embedded, What::Embedded);
   return unmended("overlaps itself and no embedding of acceptable distortion was found");

@@ -61,20 +61,21 @@ double uv_scale(const Chart& chart, const std::vector<char>& bad, const std::vec
   return surface > 0 ? std::sqrt(plane / surface) : 0;
 }
 
-/// The triangles with a vertex within `rings` of a bad triangle, those vertices free.
-Tangle tangle_within(const Chart& chart, const std::vector<char>& bad, const std::vector<int>& ring, int rings) {
+/// The triangles with a vertex within `rings` of a bad triangle, those vertices free; `misshapen` ones are to get the surface's
+/// shape.
+Tangle tangle_within(const Chart& chart, const std::vector<char>& misshapen, const std::vector<int>& ring, int rings) {
   Tangle out;
   for (const int distance : ring) out.fixed.push_back(distance >= rings);
   std::vector<std::size_t> own;
-  for (std::size_t t = 0; t < bad.size(); ++t) {
+  for (std::size_t t = 0; t < misshapen.size(); ++t) {
     const Triangle& v = chart.triangles[t];
     if (!out.fixed[v[0]] || !out.fixed[v[1]] || !out.fixed[v[2]]) own.push_back(t);
   }
-  double scale = uv_scale(chart, bad, own);
+  double scale = uv_scale(chart, misshapen, own);
   if (!(scale > 0)) scale = 1;
   double sum = 0;
   for (const std::size_t t : own) {
-    RestTriangle rest = bad[t] ? RestTriangle{} : shape_in_uvs(chart, t);
+    RestTriangle rest = misshapen[t] ? RestTriangle{} : shape_in_uvs(chart, t);
     if (rest.area == 0) rest = {chart.surface[t].inverse_edges / scale, chart.surface[t].area * scale * scale};
     out.triangles.push_back(chart.triangles[t]);
     out.inverse_edges.push_back(rest.inverse_edges);
@@ -93,20 +94,23 @@ std::optional<Chart> accepted(const Chart& chart, bool may_overlap) {
   return parted || !valid ? parted : chart;
 }
 
-}  // namespace
+struct Untangled {
+  std::optional<Chart> chart;
+  double loss = kCollapsed;  ///< E_2 over the triangles that have a shape
+};
 
-std::optional<Chart> untangle_chart(const Chart& chart, bool may_overlap, int threads, Monitor& monitor) {
-  const std::vector<char> bad = bad_triangles(chart);
+/// The best of all rings around the bad triangles; `misshapen` ones get the surface's shape.
+Untangled untangle_rings(const Chart& chart, const std::vector<char>& bad, const std::vector<char>& misshapen, bool may_overlap,
+                         int threads, Monitor& monitor) {
   const std::vector<int> ring = rings_around(chart, bad);
   const int widest = *std::max_element(ring.begin(), ring.end());
-  std::optional<Chart> best;
-  double least = kCollapsed;
+  Untangled best;
   int overlapping = 0;
   for (int rings = 1; rings <= 2 * widest + 1 && overlapping < kMostOverlapping; rings *= 2) {
-    Tangle tangle = tangle_within(chart, bad, ring, rings);
+    Tangle tangle = tangle_within(chart, misshapen, ring, rings);
     if (2 * tangle.triangles.size() > bad.size() && rings <= widest) {
       rings = widest + 1;  // most of it moves: let all of it
-      tangle = tangle_within(chart, bad, ring, rings);
+      tangle = tangle_within(chart, misshapen, ring, rings);
     }
     auto uvs = untangle(tangle, chart.uvs, threads, monitor);
     if (!uvs) continue;
@@ -118,13 +122,23 @@ std::optional<Chart> untangle_chart(const Chart& chart, bool may_overlap, int th
       continue;
     }
     const double distortion = distortion_to_good(chart, *valid);
-    if (distortion < least) {
-      least = distortion;
-      best = valid;
-    }
-    if (least <= kShapesKept) break;
+    if (distortion < best.loss) best = {valid, distortion};
+    if (best.loss <= kShapesKept) break;
   }
   return best;
+}
+
+}  // namespace
+
+std::optional<Chart> untangle_chart(const Chart& chart, bool may_overlap, int threads, Monitor& monitor) {
+  const std::vector<char> bad = bad_triangles(chart), misshapen = misshapen_triangles(chart);
+  Untangled best = untangle_rings(chart, bad, misshapen, may_overlap, threads, monitor);
+  // Where the artist's UVs are far from the surface all over, what looks drawn out may be meant.
+  if (best.loss > kShapesKept && misshapen != bad) {
+    Untangled kept = untangle_rings(chart, bad, bad, may_overlap, threads, monitor);
+    if (kept.loss < best.loss) best = std::move(kept);
+  }
+  return best.chart;
 }
 
 }  // namespace atlas_refine

@@ -50,7 +50,7 @@ void add_part(const RefinedPart& part, Whole& out) {
 struct Mapping {
   int chart;                             // the follower
   std::vector<int> vertex;               // the own vertex on each of the leader's
-  std::vector<int> triangle;             // the own triangle on each of the leader's, where they lie on each other
+  std::vector<int> triangle;             // the own triangle on each of the leader's
   bool alike = true;                     // own triangles are wound as the leader's
   const std::vector<int>& space_points;  // of the follower's vertices
   /// The own point for one of the leader's and the place in space where it lies on the follower: edges that are one at a tip of
@@ -67,7 +67,6 @@ Mapping mapping_of(const Follower& follower, const std::vector<Chart>& charts, c
   const Chart &own = charts[follower.chart], &leader = charts[follower.leader];
   Mapping map{follower.chart, std::vector<int>(leader.vertex_count(), -1), {}, true, space_points, {}};
   for (int v = 0; v < own.vertex_count(); ++v) map.vertex[follower.vertices[v]] = v;
-  if (!follower.same_triangles) return map;
   std::map<std::array<int, 3>, int> numbers;
   for (std::size_t t = 0; t < own.triangles.size(); ++t) numbers[sorted(own.triangles[t])] = static_cast<int>(t);
   for (const Triangle& t : leader.triangles)
@@ -154,9 +153,7 @@ void follow(const Follower& follower, const ChartSet& set, Whole& out) {
   const std::vector<Chart>& charts = set.charts;
   const std::vector<int> pieces = out.pieces_of[follower.leader];
   if (pieces.empty()) return;  // the leader stays as it is
-  const Piece& first = out.atlas.pieces[pieces.front()];
-  const bool divided = std::any_of(first.points.begin(), first.points.end(), [](int p) { return p >= 0; });
-  if (pieces.size() == 1 && !divided && first.mesh.vertex_count() == charts[follower.leader].vertex_count())
+  if (pieces.size() == 1 && is_whole(out.atlas.pieces[pieces.front()], charts[follower.leader]))
     return follow_whole(follower, charts, pieces.front(), out);
   Mapping map = mapping_of(follower, charts, set.points[follower.chart]);
   std::vector<Piece> leaders, followers;

@@ -33,7 +33,7 @@ struct AssembleOptions {
 };
 
 /// Followers get the UVs, and the cuts, of their leaders; charts of no part keep their own UVs, bit for bit. Where some part is
-/// cut all of its followers must have the triangles of their leaders.
+/// cut all followers of the charts that it cuts must have the triangles of their leaders.
 AssembledAtlas assemble(const InputAtlas& whole, const Participants& participants, const std::vector<RefinedPart>& parts,
                         const AssembleOptions& options);
 

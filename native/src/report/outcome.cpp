@@ -117,8 +117,7 @@ void tell_of(const Participants& participants, const std::vector<Done>& done, Jo
   if (!participants.unstacked.empty())
     journal.warnings.push_back(
         charts_named(participants.unstacked) +
-        ": on another chart of the same shape, but its polygons are divided otherwise and cannot follow cuts; "
-        "placed apart");
+        ": on another chart of the same shape, but of other polygons, which cannot follow its cuts; placed apart");
   const auto parted = [](const Done& d) {
     return d.outcome.intervention != Intervention::Unchanged && d.outcome.before.gap_between == 0;
   };
