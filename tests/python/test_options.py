@@ -187,7 +187,7 @@ def uv_area(arrays, uvs):
 
 def test_a_free_box_takes_the_density_that_is_asked():
     arrays = shapes.loose()
-    plain = atlas_refine.refine(*arrays, pe_bound=0.8)
+    plain = atlas_refine.refine(*arrays, pe_bound=0.8, stored="float32")
     for density in (0.01, 7.0):
         result = atlas_refine.refine(*arrays, pe_bound=0.8, uv_density=density, stored="float32")
         assert result.after.pe >= 0.8
