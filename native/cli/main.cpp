@@ -223,7 +223,7 @@ int run_refine(CommandLine line) {
     if (line.importance) line.options.importance = files.of_atlas(read_importance(*line.importance, files.face_count()));
     set_groups(line, files, line.options);
     times.read = seconds_since(start);
-  times.files = processor_seconds();
+    times.files = processor_seconds();
 
     const InterruptScope ask_and_exit(OnInterrupt::AskAndExit);
     const auto debug = pictures(line);
