@@ -30,8 +30,7 @@ constexpr double kSigmaOfWidth = 0.125;  // the sigma of a strip, whose ends els
 // Lines nearer than this many sigmas are made one, unless that raises E_d - 1 by more than the factor.
 constexpr double kSameLine[] = {0.5, 0.1, 1e-3, 1e-6};
 constexpr double kMergeCost = 1.05;
-constexpr double kFreeMerge =
-    1e-4;  // E_d that merging may always cost: a nearly flat chart has none to multiply, and would be cut into slivers
+constexpr double kFreeMerge = 1e-4;  // E_d that merging may always cost: nearly flat charts would be cut into slivers
 constexpr double kAligned = 0.01;    // rad off an axis at most: a boundary that runs along the axes as it is
 constexpr int kLeastTriangles = 4;   // charts of fewer are packed as they are
 constexpr double kTooDistorted = 4;  // E_d of an axis-aligned chart that is not worth it, unless it was more before
