@@ -92,8 +92,8 @@ struct RefineOptions {
   /// Go on to the least of the objective under the bound where less would already hold it. Rectangles do so anyway, unless
   /// until_input.
   bool relax = false;
-  /// Where the bound is not reached return the best valid atlas within max_distortion, do not throw; with Seams::Needed also
-  /// where max_distortion is missed, the least distorted one.
+  /// Where the bound is not reached return the best valid atlas within max_distortion, do not throw: PE against what it costs;
+  /// with Seams::Needed also where max_distortion is missed, the least distorted one.
   bool best_effort = false;
   Density density = Density::Equal;
   /// Of a free box only: the size of the result, as sqrt(UV area / surface area), UV units per model unit. It may reach beyond
@@ -127,8 +127,8 @@ struct RefineOptions {
   /// One flag per face, or empty. A chart with a face that is set keeps its UVs, bit for bit; all others go around it. The box is
   /// then [0, 1]^2 (of the texture's shape).
   std::vector<char> locked;
-  /// Edges, as pairs of vertices, that no cut and no opening of a closed chart runs along; Cut::Split may cross some, which is
-  /// told.
+  /// Edges, as pairs of vertices, that no cut and no opening of a closed chart runs along; Cut::Split may cross some, or run
+  /// along them, which is told.
   std::vector<std::array<int, 2>> no_seam;
   /// Edges that cuts along edges, and openings, run along for a tenth of their length's price.
   std::vector<std::array<int, 2>> prefer_seam;
