@@ -5,17 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
 #include "atlas_refine/refine.h"
 #include "charts.h"
 #include "closed_shapes.h"
+#include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
 #include "refine_checks.h"
 #include "repair/bad_triangles.h"
 #include "shapes.h"
 #include "small_atlases.h"
+#include "support/rng.h"
 
 namespace atlas_refine {
 namespace {
@@ -93,6 +96,38 @@ TEST(RepairCharts, FacesThatAVertexDrewOutHaveNoShapeToKeep) {
     }
     ASSERT_LT(untouched.size(), before.triangles.size());
     EXPECT_LE(dirichlet_sums(shapes_before, untouched, after.uvs).best_energy(), 1.02) << at.transpose();
+  }
+}
+
+/// Faces whose polygons hold under every division.
+std::set<int> convex_faces(Chart chart) {
+  drop_broken_guards(chart);
+  std::set<int> faces;
+  for (const Guard& guard : chart.guards) faces.insert(guard.face);
+  return faces;
+}
+
+/// Every vertex moved by itself, in the UV map and on the surface: many quads are nearly concave.
+Atlas shaken(Atlas atlas, double amount, std::uint64_t seed) {
+  Rng rng(seed, 0);
+  std::map<std::pair<double, double>, Vec2> by;
+  for (int c = 0; c < atlas.corner_count(); ++c) {
+    Vec2& uv = atlas.corner_uvs[c];
+    const auto [at, added] = by.emplace(std::pair(uv.x(), uv.y()), Vec2::Zero());
+    if (added) at->second = amount * Vec2(rng.uniform(-1, 1), rng.uniform(-1, 1));
+    uv += at->second;
+    atlas.positions[atlas.corner_vertices[c]].head<2>() = uv;
+  }
+  return atlas;
+}
+
+TEST(RepairCharts, QuadsThatWereConvexStaySo) {
+  for (int k = 20; k < 30; ++k) {
+    Rng rng(k, 1);
+    const Vec2 at(rng.uniform(0.1, 0.9), rng.uniform(0.1, 0.9)), by(rng.uniform(-0.25, 0.25), rng.uniform(-0.25, 0.25));
+    const Chart before = testing::charts_of(with_vertex_moved(shaken(shapes::quad_grid(12, 12), 0.045, k), at, by))[0];
+    const std::set<int> after = convex_faces(repaired({before}).atlas.pieces[0].mesh);
+    for (const int face : convex_faces(before)) EXPECT_TRUE(after.contains(face)) << "face " << face << ", seed " << k;
   }
 }
 

@@ -13,6 +13,7 @@
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "repair/bad_triangles.h"
+#include "repair/convex_again.h"
 #include "repair/embed.h"
 #include "repair/part_touching.h"
 #include "repair/untangle_chart.h"
@@ -178,6 +179,22 @@ std::vector<int> faces_of(const Chart& chart, const std::vector<char>& bad) {
   return {faces.begin(), faces.end()};
 }
 
+/// Faces that are valid under every division.
+std::set<int> faces_with_held_guards(Chart chart) {
+  drop_broken_guards(chart);
+  std::set<int> out;
+  for (const Guard& guard : chart.guards) out.insert(guard.face);
+  return out;
+}
+
+/// Without the guards that hold neither before the repair nor after it. The others are to hold: what was valid under every
+/// division stays so.
+Chart without_lost_guards(Chart mesh, const Chart& before) {
+  const std::set<int> then = faces_with_held_guards(before), now = faces_with_held_guards(mesh);
+  std::erase_if(mesh.guards, [&](const Guard& guard) { return !then.contains(guard.face) && !now.contains(guard.face); });
+  return mesh;
+}
+
 void append(CutAtlas own, int chart, CutAtlas& all) {
   for (Piece& piece : own.pieces) {
     piece.chart = chart;
@@ -198,6 +215,8 @@ void repair_chart(const Chart& chart, int index, const RepairOptions& options, M
     out.unmended.push_back({index, repair.faces.empty() ? chart.triangle_faces.front() : repair.faces.front(), result->reason});
     return;
   }
+  for (Piece& piece : result->atlas.pieces)
+    piece.mesh = convex_again(without_lost_guards(piece.mesh, chart), options.threads, monitor);
   if (std::find(bad.begin(), bad.end(), 0) != bad.end())
     repair.distortion_to_input = distortion_to_good(chart, result->atlas.pieces[0].mesh);
   for (Piece& piece : result->atlas.pieces) drop_broken_guards(piece.mesh);
