@@ -62,7 +62,8 @@ class Needed(unittest.TestCase):
     def test_cuts_across_faces_divide_them(self):
         obj = add_c()
         faces = len(obj.data.polygons)
-        self.assertIn("cut", self.refine(max_distortion=1.01, cut="SPLIT"))
+        # So many cuts that not all of them can lie on edges.
+        self.assertIn("cuts", self.refine(max_distortion=1.003, cut="SPLIT"))
         self.assertGreater(len(obj.data.polygons), faces)
         self.assertEqual([edge.use_seam for edge in obj.data.edges], torn_edges(obj.data))
         self.assertFalse(obj.data.validate(verbose=True))
