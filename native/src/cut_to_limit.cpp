@@ -13,9 +13,9 @@ namespace atlas_refine {
 namespace {
 
 constexpr double kHopeful = 0.5;  // further cuts pay at this part of the best rate that was seen
-constexpr double kInherited =
-    0.8;                      // of what a cut saved by itself it saves beside others, before any was forecast beside others:
-constexpr double kPrior = 3;  // that counts as so much of the logarithm
+// What a cut saves beside others of what it saved by itself, before any was forecast beside others; that counts as so much of
+// the logarithm.
+constexpr double kInherited = 0.8, kPrior = 3;
 constexpr double kLikelyShare = 0.5;   // of the distortion near a cut that relaxes, before any was forecast
 constexpr double kMostShare = 0.9;     // of all distortion that one cut may release
 constexpr double kRemoved = 0.5;       // of what a cut saved when it was added is lost without it

@@ -223,8 +223,7 @@ std::vector<CutPlace> CutTrials::places(const Trial& present, int most) const {
 
 double CutTrials::growth_of(const CutPlace& place) const {
   const Chart& chart = whole_.atlas.pieces[place.chart].mesh;
-  const double scale = std::sqrt(chart.surface.area() / uv_area(chart));
-  return boundary_ > 0 ? 2 * scale * place.chord.length() / boundary_ : 0;
+  return boundary_ > 0 ? 2 * place.chord.length() / (texel_density(chart) * boundary_) : 0;
 }
 
 }  // namespace atlas_refine

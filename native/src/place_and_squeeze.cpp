@@ -159,10 +159,7 @@ double likely_pe(const Refinement& run, const PlacedCharts& placed, const Freedo
 }
 
 /// Thousands of charts are in each other's way: bending them takes a minute, and a little less gap spares it.
-bool rather_moves(const Refinement& run, std::size_t charts) {
-  constexpr std::size_t kThousands = 1000;
-  return charts >= kThousands && !run.options.relax;
-}
+bool rather_moves(const Refinement& run, std::size_t charts) { return charts >= kThousands && !run.options.relax; }
 
 /// Where charts lie, and the gap that was left between them.
 struct Placing {

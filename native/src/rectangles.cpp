@@ -35,7 +35,10 @@ constexpr double kLastChange = 2e-5;
 constexpr std::size_t kMany = 30000;
 constexpr double kCoarseChange = 3e-5;   // what slides slowly slides on the coarse charts, where that costs little
 constexpr double kCarriedChange = 6e-6;  // nearer to the optimum less changes at once
-constexpr double kSpread = 1.01;         // what pieces are put further apart by before the reduction, as a factor on their places
+// Hundreds of pieces may be jammed and slide on and on, by next to nothing: each reduction ends after so many iterations.
+constexpr std::size_t kHundreds = 100;
+constexpr int kMostIterations = 150;
+constexpr double kSpread = 1.01;  // what pieces are put further apart by before the reduction, as a factor on their places
 
 /// How many edges that must stay whole the cuts run along or across.
 int forbidden_edges_cut(const CutPlan& plan, const CutAtlas& cut) {
@@ -139,6 +142,7 @@ ReduceResult reduce_charts(const Refinement& run, const std::vector<Chart>& char
                               .least_change = 0,
                               .negligible = reduction.negligible,
                               .max_distortion = run.options.max_distortion.value_or(0),
+                              .max_iterations = charts.size() > kHundreds ? kMostIterations : ReduceProblem::kMostIterations,
                               .threads = run.threads,
                               .freedom = freedom};
   ReduceResult reduced = reduce_distortion(problem, [&](const ReduceProgress& progress) {

@@ -17,27 +17,30 @@ def records(text, keyword):
     return [line for line in text.splitlines() if line.startswith(keyword + " ")]
 
 
+def refined(program, folder, text, *options):
+    """The result, its report, and what was printed."""
+    source, target, report = (folder / name for name in ("in.obj", "out.obj", "report.json"))
+    source.write_text(text)
+    run = program(source, "-o", target, "--report", report, *options)
+    assert run.returncode == 0, run.stderr
+    return target.read_text(), json.loads(report.read_text()), run.stdout
+
+
 @pytest.mark.parametrize("cut", [False, True])
 @pytest.mark.parametrize("case", ODD_FACES)
 def test_a_face_left_out_is_reported_and_kept(program, tmp_path, case, cut):
     odd, note = ODD_FACES[case]
-    source, target, report = (tmp_path / name for name in ("in.obj", "out.obj", "report.json"))
     plain = grid(8, 30)
-    source.write_text(plain + odd)
     options = ["--seams", "rectangles", "--candidates", "20"] if cut else []
-    run = program(source, "-o", target, "--report", report, *options)
-    assert run.returncode == 0, run.stderr
+    text, told, printed = refined(program, tmp_path, plain + odd, *options)
     line = (plain + odd).count("\n")
-    told = json.loads(report.read_text())
     assert f"{note} (line {line})" in told["warnings"]
-    assert f"  warning: {note} (line {line})\n".encode() in run.stdout
+    assert f"  warning: {note} (line {line})\n".encode() in printed
     assert told["files"][0]["faces"] == len(records(plain, "f")) + 1
-    kept = records(target.read_text(), "f")[-1]
+    kept = records(text, "f")[-1]
     assert [corner.split("/")[0] for corner in kept.split()[1:]] == [corner.split("/")[0] for corner in odd.split()[1:]]
 
-    source.write_text(plain)
-    assert program(source, "-o", tmp_path / "plain.obj", *options).returncode == 0
-    assert records((tmp_path / "plain.obj").read_text(), "vt") == records(target.read_text(), "vt")
+    assert records(refined(program, tmp_path, plain, *options)[0], "vt") == records(text, "vt")
 
 
 # grid(8) has 81 of each; what stands behind the grid, and what is told of the face on its last line but for the others
@@ -72,34 +75,25 @@ def out_of_range(face, positions, uvs):
 @pytest.mark.parametrize("case", BAD_RECORDS)
 def test_one_bad_record_costs_its_faces_only(program, tmp_path, case, options):
     bad, note = BAD_RECORDS[case]
-    source, target, report = (tmp_path / name for name in ("in.obj", "out.obj", "report.json"))
     plain = grid(8, 30)
-    source.write_text(plain + bad)
-    run = program(source, "-o", target, "--report", report, "--pe-bound", "0.9", *options)
-    assert run.returncode == 0, run.stderr
+    text, told, _ = refined(program, tmp_path, plain + bad, "--pe-bound", "0.9", *options)
     line = plain.count("\n") + 1 + bad[: bad.index("f ")].count("\n")
-    assert json.loads(report.read_text())["warnings"][0] == f"1 face {note} and is left out (line {line})"
-    text = target.read_text()
+    assert told["warnings"][0] == f"1 face {note} and is left out (line {line})"
     assert all(record in text.splitlines() for record in bad.splitlines() if record[0] == "v")
     kept = records(text, "f")[-1]
     assert len(kept.split()) == 4
     positions, uvs = len(records(text, "v")), len(records(text, "vt"))
     assert out_of_range(kept, positions, uvs) == ("vertex or UV" in note)
     if not options:
-        assert records(text, "v") == records(source.read_text(), "v")
+        assert records(text, "v") == records(plain + bad, "v")
         assert kept == records(bad, "f")[0]
 
 
 def test_a_bad_record_that_no_face_names_costs_nothing(program, tmp_path):
-    source, target, report = (tmp_path / name for name in ("in.obj", "out.obj", "report.json"))
-    plain = grid(8, 30)
-    source.write_text(plain + "v nan nan nan\nvt -1.#IND nan\nl 1 -999\n")
-    run = program(source, "-o", target, "--report", report, "--pe-bound", "0.9")
-    assert run.returncode == 0, run.stderr
-    assert [x for x in json.loads(report.read_text())["warnings"] if "left out" in x] == []
-    source.write_text(plain)
-    assert program(source, "-o", tmp_path / "plain.obj", "--pe-bound", "0.9").returncode == 0
-    assert target.read_text() == (tmp_path / "plain.obj").read_text() + "v nan nan nan\nvt -1.#IND nan\nl 1 -999\n"
+    plain, unused = grid(8, 30), "v nan nan nan\nvt -1.#IND nan\nl 1 -999\n"
+    text, told, _ = refined(program, tmp_path, plain + unused, "--pe-bound", "0.9")
+    assert [x for x in told["warnings"] if "left out" in x] == []
+    assert text == refined(program, tmp_path, plain, "--pe-bound", "0.9")[0] + unused
 
 
 @pytest.mark.parametrize("options", [[], ["--seams", "rectangles", "--candidates", "20"]])

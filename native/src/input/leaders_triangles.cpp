@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "input/surfaces.h"
@@ -51,7 +52,7 @@ std::vector<Side> key(const Chart& chart, const FaceRange& face, const std::vect
 
 std::vector<int> own_names(const Chart& chart) {
   std::vector<int> out(chart.vertex_count());
-  for (int v = 0; v < chart.vertex_count(); ++v) out[v] = v;
+  std::iota(out.begin(), out.end(), 0);
   return out;
 }
 

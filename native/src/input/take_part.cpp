@@ -8,6 +8,7 @@
 #include "geometry/freedom.h"
 #include "geometry/plane.h"
 #include "measure/distortion.h"
+#include "support/median.h"
 
 namespace atlas_refine {
 namespace {
@@ -64,10 +65,7 @@ std::vector<int> folds_of_charts(const ChartSet& set) {
 bool is_collapsed(const Chart& chart, double box_side) {
   const std::vector<double> extents = extents_of_triangles(chart);
   if (!is_point_or_line(chart, extents, INFINITY, box_side)) return false;
-  std::vector<double> sorted = extents;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return is_point_or_line(chart, extents, kFar * *middle, box_side);
+  return is_point_or_line(chart, extents, kFar * median(extents), box_side);
 }
 
 double collapse_side(const ChartSet& set) {

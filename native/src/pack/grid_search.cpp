@@ -15,9 +15,6 @@
 namespace atlas_refine {
 namespace {
 
-/// Beyond this many charts, separation and many starts cost more than they
-/// bring.
-constexpr int kManyCharts = 200;
 /// Beyond this many charts a still finer grid brings what compaction does, in less time; a second start brings nothing more, and
 /// looking for each chart's place from the bottom on takes too long.
 constexpr int kTooManyToCompact = 500;

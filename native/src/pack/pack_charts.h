@@ -11,6 +11,9 @@
 
 namespace atlas_refine {
 
+/// Beyond this many charts separation, many starts and many turns cost more than they bring.
+inline constexpr int kManyCharts = 200;
+
 /// A chart's outline: all boundary loops (chart on the left; outer first, then
 /// holes), in the units of the box to be found.
 struct Outline {

@@ -17,7 +17,6 @@ constexpr int kRules = 24;            // orders in which the charts are placed, 
 constexpr double kShrink = 0.93;      // from one scale to the next
 constexpr int kBisections = 3;        // between the last that failed and the first that did not
 constexpr double kLeastShare = 1e-4;  // of the frame's area, that charts cover at the least scale
-constexpr int kManyCharts = 200;      // beyond so many one class of turns is tried
 
 /// The frame in cells: charts dilated by half the gap may lie in all of them.
 Window make_window(const FrameOptions& options, std::size_t charts) {

@@ -21,7 +21,6 @@ namespace {
 // Rather too large a guess of the box, whose gap costs little, than a second round of packing.
 constexpr double kLikelyPe = 0.6;
 // The same with many charts, of which each round takes seconds: with half the gap around them they take this part of the box.
-constexpr int kManyCharts = 200;
 constexpr double kLikelyTaken = 0.8;
 constexpr double kMoreThanGap = 1.0065;
 // Where many charts ask for a wide gap, the box grows faster than the gap can follow it.

@@ -12,8 +12,6 @@ namespace {
 // What slides slowly slides on the coarse charts, where that costs little: fine ones would stop short of it.
 constexpr double kLeastChange = 2e-5;
 constexpr double kNegligible = 1e-9;
-// With so many charts that takes as long as all the rest, for 1e-4 of E_d.
-constexpr std::size_t kThousands = 1000;
 
 /// The fine charts from where the coarse ones have ended.
 std::optional<PlacedCharts> carried_over(const CoarseAtlas& coarse, std::vector<Chart> charts, const Objective& objective,
@@ -48,6 +46,7 @@ double gap_within(const std::vector<Chart>& charts, double most) {
   return std::min(most, gap_within(charts, dirichlet_sums(charts).best_scale(), most));
 }
 
+/// With thousands of charts that takes as long as all the rest, for 1e-4 of E_d.
 SqueezeOptions patient(SqueezeOptions options, std::size_t charts) {
   if (charts >= kThousands) return options;
   options.least_change = kLeastChange;

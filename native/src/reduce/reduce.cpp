@@ -22,7 +22,6 @@ constexpr double kFarBelow = 3;       // log PE below the target where charts th
 constexpr int kTrialIterations = 60;  // after so many iterations
 constexpr double kTelling = 1;        // damping up to which a rise of the objective is the price of PE
 constexpr double kCrushed = 0.5;      // a rise under heavy damping that is not waited out
-constexpr int kThousands = 1000;      // with so many charts
 constexpr int kHundreds = 100;        // so many charts ride with the box: of fewer hardly any step is cut short
 constexpr int kPace = 30;             // iterations over which a pace is taken
 constexpr double kQuickening = 3;     // a pace may grow by so much

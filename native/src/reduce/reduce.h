@@ -14,6 +14,9 @@ namespace atlas_refine {
 /// The engine starts in a box that is a little larger than the charts' own, and the gap follows the box.
 inline constexpr double kStartGap = 1.006;
 
+/// From so many charts on they are in each other's way at nearly every step, and what only refines the result is not waited for.
+inline constexpr std::size_t kThousands = 1000;
+
 /// A vertex and a boundary edge of one chart, told by the vertex it starts at, that may come nearer to each other than the gap.
 /// Vertices are numbered through all charts, one after the other.
 struct NearBorder {
@@ -32,6 +35,8 @@ struct WarmStart {
 };
 
 struct ReduceProblem {
+  static constexpr int kMostIterations = 600;
+
   const std::vector<Chart>& charts;         ///< placed, free of flips and crossings, kStartGap times the gap apart; the start
   std::optional<Objective> objective = {};  ///< of `charts`; nothing: the surface
   Gap gap = {};                  ///< smallest distance between charts; within a chart the same, or the start's own if less
@@ -44,7 +49,7 @@ struct ReduceProblem {
   double max_rise = 0;  ///< give up the climb where the objective exceeds its least so far by this factor - 1; 0 = no limit
   double most_energy =
       0;  ///< give up where the objective falls so slowly that it ends far above this; 0 = no limit; without a box
-  int max_iterations = 600;
+  int max_iterations = kMostIterations;
   int threads = 1;
   /// Charts that only move count in the objective, by what they have; fixed ones do not.
   Freedoms freedom = {};

@@ -9,6 +9,7 @@
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
 #include "geometry/rest_triangle.h"
+#include "support/median.h"
 
 namespace atlas_refine {
 namespace {
@@ -25,12 +26,6 @@ std::array<double, 2> log_stretch(const Chart& chart, std::size_t t) {
   const double sum = std::hypot(j(0, 0) + j(1, 1), j(1, 0) - j(0, 1)), diff = std::hypot(j(0, 0) - j(1, 1), j(1, 0) + j(0, 1));
   const double largest = 0.5 * (sum + diff);
   return {std::log(largest), std::log(std::abs(j.determinant()) / largest)};
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

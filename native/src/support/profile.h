@@ -35,7 +35,7 @@ struct Account {
 };
 
 /// What this thread does while it lives belongs to a phase, but for what scopes inside it claim. Costs two readings of the
-/// thread's clock, half a microsecond: not for single triangles.
+/// thread's clock: not for single triangles.
 class PhaseScope {
  public:
   explicit PhaseScope(Phase phase);
