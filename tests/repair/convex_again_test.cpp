@@ -6,7 +6,10 @@
 #include <algorithm>
 
 #include "charts.h"
+#include "geometry/guards.h"
+#include "geometry/rest_triangle.h"
 #include "measure/certificate.h"
+#include "measure/distortion.h"
 #include "shapes.h"
 
 namespace atlas_refine {
@@ -38,6 +41,34 @@ TEST(ConvexAgain, ADentIsTakenOutAndNothingFarMoves) {
   EXPECT_GT(moved, 0);
   EXPECT_LT(moved, dented.vertex_count() / 2);
   EXPECT_TRUE(testing::same_bits(mended.uvs, convex_again(dented, 2, monitor).uvs));
+}
+
+/// E_2 over the triangles of polygons that were convex before.
+double distortion_of_convex(const Chart& before, const Chart& after) {
+  Chart held = before;
+  drop_broken_guards(held);
+  std::vector<Triangle> triangles;
+  std::vector<RestTriangle> shapes;
+  for (std::size_t t = 0; t < before.triangles.size(); ++t) {
+    const Triangle& v = before.triangles[t];
+    const auto of_face = [&](const Guard& guard) { return guard.face == before.triangle_faces[t]; };
+    if (std::none_of(held.guards.begin(), held.guards.end(), of_face)) continue;
+    triangles.push_back(v);
+    shapes.push_back(rest_from_plane(before.uvs[v[0]], before.uvs[v[1]], before.uvs[v[2]], 1));
+  }
+  EXPECT_LT(triangles.size(), before.triangles.size());
+  return dirichlet_sums(shapes, triangles, after.uvs).best_energy();
+}
+
+TEST(ConvexAgain, FacesThatHoldKeepTheShapesOfTheirUvs) {
+  // Three times as wide as the surface: the artist's will.
+  Chart dented = with_dent();
+  for (Vec2& uv : dented.uvs) uv.x() *= 3;
+  ASSERT_FALSE(all_guards_hold(dented));
+  Monitor monitor;
+  const Chart mended = convex_again(dented, 1, monitor);
+  EXPECT_TRUE(all_guards_hold(mended));
+  EXPECT_LT(distortion_of_convex(dented, mended), 1.01);
 }
 
 TEST(ConvexAgain, WhatIsConvexStaysBitForBit) {

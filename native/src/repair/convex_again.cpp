@@ -6,6 +6,7 @@
 #include <set>
 
 #include "geometry/guards.h"
+#include "geometry/rest_triangle.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "repair/untangle.h"
@@ -22,14 +23,20 @@ std::set<int> faces_with_guards(const Chart& chart) {
   return out;
 }
 
-/// One flag per vertex: it lies on a polygon with a broken guard.
-std::vector<char> at_broken_guards(const Chart& chart) {
+/// The polygons one of whose guards is not positive.
+std::set<int> faces_with_broken_guards(const Chart& chart) {
   Chart held = chart;
   drop_broken_guards(held);
-  const std::set<int> whole = faces_with_guards(held);
+  std::set<int> out = faces_with_guards(chart);
+  for (const int face : faces_with_guards(held)) out.erase(face);
+  return out;
+}
+
+/// One flag per vertex: it lies on one of these polygons.
+std::vector<char> at_faces(const Chart& chart, const std::set<int>& faces) {
   std::vector<char> out(chart.vertex_count(), 0);
   for (const Guard& guard : chart.guards) {
-    if (whole.contains(guard.face)) continue;
+    if (!faces.contains(guard.face)) continue;
     for (const int v : guard.triangle) out[v] = 1;
   }
   return out;
@@ -43,16 +50,18 @@ void widen(const Chart& chart, std::vector<char>& near) {
   }
 }
 
-/// The triangles and guards at free vertices, all to look as on the surface.
-Tangle tangle_at(const Chart& chart, const std::vector<char>& free) {
+/// The triangles and guards at free vertices: those of broken polygons are to look as on the surface, the others as they do.
+Tangle tangle_at(const Chart& chart, const std::vector<char>& free, const std::set<int>& broken) {
   Tangle out;
   const double scale = texel_density(chart);
   const double least = kLeastWeight * uv_area(chart) / static_cast<double>(chart.triangles.size());
-  for_each_element(chart, [&](const Triangle& t, const RestTriangle& rest, double share, int) {
-    if (rest.area == 0 || (!free[t[0]] && !free[t[1]] && !free[t[2]])) return;
+  for_each_element(chart, [&](const Triangle& t, const RestTriangle& surface, double share, int face) {
+    if (surface.area == 0 || (!free[t[0]] && !free[t[1]] && !free[t[2]])) return;
+    RestTriangle shape = rest_from_plane(chart.uvs[t[0]], chart.uvs[t[1]], chart.uvs[t[2]], 1);
+    if (shape.area == 0 || broken.contains(face)) shape = {surface.inverse_edges / scale, surface.area * scale * scale};
     out.triangles.push_back(t);
-    out.inverse_edges.push_back(rest.inverse_edges / scale);
-    out.weights.push_back(std::max(least, share * rest.area * scale * scale));
+    out.inverse_edges.push_back(shape.inverse_edges);
+    out.weights.push_back(std::max(least, share * shape.area));
   });
   for (const char flag : free) out.fixed.push_back(!flag);
   return out;
@@ -67,10 +76,11 @@ bool all_guards_hold(Chart chart) {
 }
 
 Chart convex_again(const Chart& chart, int threads, Monitor& monitor) {
-  if (all_guards_hold(chart)) return chart;
-  std::vector<char> free = at_broken_guards(chart);
+  const std::set<int> broken = faces_with_broken_guards(chart);
+  if (broken.empty()) return chart;
+  std::vector<char> free = at_faces(chart, broken);
   for (int rings = 0; rings <= kMostRings; ++rings, widen(chart, free)) {
-    auto uvs = untangle(tangle_at(chart, free), chart.uvs, threads, monitor);
+    auto uvs = untangle(tangle_at(chart, free, broken), chart.uvs, threads, monitor);
     if (!uvs) continue;
     Chart mended = chart;
     mended.uvs = std::move(*uvs);

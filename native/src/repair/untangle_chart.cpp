@@ -17,7 +17,9 @@ namespace {
 constexpr double kShapesKept = 1.02;   // E_2 over the good triangles
 constexpr double kLeastWeight = 1e-3;  // of a triangle, as a fraction of the mean one: slivers must count, a little
 constexpr int kMostOverlapping = 3;    // positive everywhere, yet the boundary crosses: wider rings will not help for ever
-constexpr double kCollapsed = 100;     // E_2 above which an embedding anew serves better
+// What misshapen triangles count for, of their area, where with all of it the good ones bend too much.
+constexpr double kLesserShares[] = {0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4};
+constexpr double kCollapsed = 100;  // E_2 above which an embedding anew serves better
 
 /// The number of edges between each vertex and the nearest bad triangle.
 std::vector<int> rings_around(const Chart& chart, const std::vector<char>& bad) {
@@ -61,28 +63,42 @@ double uv_scale(const Chart& chart, const std::vector<char>& bad, const std::vec
   return surface > 0 ? std::sqrt(plane / surface) : 0;
 }
 
-/// The triangles with a vertex within `rings` of a bad triangle, those vertices free; `misshapen` ones are to get the surface's
-/// shape.
-Tangle tangle_within(const Chart& chart, const std::vector<char>& misshapen, const std::vector<int>& ring, int rings) {
+/// What is to be mended, and how.
+struct Mending {
+  const Chart& chart;
+  std::vector<int> ring;               ///< rings_around() its bad triangles
+  const std::vector<char>& misshapen;  ///< triangles that are to get the surface's shape; the others keep what they have
+  bool may_overlap;
+  int threads;
+  Monitor& monitor;
+};
+
+/// The triangles with a vertex within `rings` of a bad triangle, those vertices free; misshapen ones count for `share` of their
+/// area.
+Tangle tangle_within(const Mending& mending, int rings, double share) {
+  const Chart& chart = mending.chart;
   Tangle out;
-  for (const int distance : ring) out.fixed.push_back(distance >= rings);
+  for (const int distance : mending.ring) out.fixed.push_back(distance >= rings);
   std::vector<std::size_t> own;
-  for (std::size_t t = 0; t < misshapen.size(); ++t) {
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
     const Triangle& v = chart.triangles[t];
     if (!out.fixed[v[0]] || !out.fixed[v[1]] || !out.fixed[v[2]]) own.push_back(t);
   }
-  double scale = uv_scale(chart, misshapen, own);
+  double scale = uv_scale(chart, mending.misshapen, own);
   if (!(scale > 0)) scale = 1;
   double sum = 0;
   for (const std::size_t t : own) {
-    RestTriangle rest = misshapen[t] ? RestTriangle{} : shape_in_uvs(chart, t);
+    RestTriangle rest = mending.misshapen[t] ? RestTriangle{} : shape_in_uvs(chart, t);
     if (rest.area == 0) rest = {chart.surface[t].inverse_edges / scale, chart.surface[t].area * scale * scale};
     out.triangles.push_back(chart.triangles[t]);
     out.inverse_edges.push_back(rest.inverse_edges);
     out.weights.push_back(rest.area);
     sum += rest.area;
   }
-  for (double& weight : out.weights) weight = std::max(weight, kLeastWeight * sum / static_cast<double>(own.size()));
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    out.weights[k] = std::max(out.weights[k], kLeastWeight * sum / static_cast<double>(own.size()));
+    if (mending.misshapen[own[k]]) out.weights[k] *= share;
+  }
   return out;
 }
 
@@ -97,33 +113,48 @@ std::optional<Chart> accepted(const Chart& chart, bool may_overlap) {
 struct Untangled {
   std::optional<Chart> chart;
   double loss = kCollapsed;  ///< E_2 over the triangles that have a shape
+  int rings = 0;             ///< around the bad triangles, that moved
 };
 
-/// The best of all rings around the bad triangles; `misshapen` ones get the surface's shape.
-Untangled untangle_rings(const Chart& chart, const std::vector<char>& bad, const std::vector<char>& misshapen, bool may_overlap,
-                         int threads, Monitor& monitor) {
-  const std::vector<int> ring = rings_around(chart, bad);
-  const int widest = *std::max_element(ring.begin(), ring.end());
+Untangled untangled(const Mending& mending, const std::vector<Vec2>& uvs, int rings) {
+  Chart mended = mending.chart;
+  mended.uvs = uvs;
+  Untangled out{.chart = accepted(mended, mending.may_overlap), .rings = rings};
+  if (out.chart) out.loss = distortion_to_good(mending.chart, *out.chart);
+  return out;
+}
+
+/// The best of all rings around the bad triangles.
+Untangled untangle_rings(const Mending& mending) {
+  const int widest = *std::max_element(mending.ring.begin(), mending.ring.end());
   Untangled best;
   int overlapping = 0;
   for (int rings = 1; rings <= 2 * widest + 1 && overlapping < kMostOverlapping; rings *= 2) {
-    Tangle tangle = tangle_within(chart, misshapen, ring, rings);
-    if (2 * tangle.triangles.size() > bad.size() && rings <= widest) {
+    Tangle tangle = tangle_within(mending, rings, 1);
+    if (2 * tangle.triangles.size() > mending.misshapen.size() && rings <= widest) {
       rings = widest + 1;  // most of it moves: let all of it
-      tangle = tangle_within(chart, misshapen, ring, rings);
+      tangle = tangle_within(mending, rings, 1);
     }
-    auto uvs = untangle(tangle, chart.uvs, threads, monitor);
+    const auto uvs = untangle(tangle, mending.chart.uvs, mending.threads, mending.monitor);
     if (!uvs) continue;
-    Chart mended = chart;
-    mended.uvs = std::move(*uvs);
-    const auto valid = accepted(mended, may_overlap);
-    if (!valid) {
-      ++overlapping;
-      continue;
-    }
-    const double distortion = distortion_to_good(chart, *valid);
-    if (distortion < best.loss) best = {valid, distortion};
+    Untangled own = untangled(mending, *uvs, rings);
+    if (!own.chart) ++overlapping;
+    if (own.loss < best.loss) best = std::move(own);
     if (best.loss <= kShapesKept) break;
+  }
+  return best;
+}
+
+/// From there on with the misshapen triangles counting less and less, as far as the good ones need it to keep their shapes.
+Untangled yielding(const Mending& mending, Untangled best) {
+  for (const double share : kLesserShares) {
+    if (!best.chart || best.loss <= kShapesKept) break;
+    Tangle tangle = tangle_within(mending, best.rings, share);
+    tangle.stays_positive = true;
+    const auto uvs = untangle(tangle, best.chart->uvs, mending.threads, mending.monitor);
+    if (!uvs) break;
+    Untangled own = untangled(mending, *uvs, best.rings);
+    if (own.loss < best.loss) best = std::move(own);
   }
   return best;
 }
@@ -132,13 +163,13 @@ Untangled untangle_rings(const Chart& chart, const std::vector<char>& bad, const
 
 std::optional<Chart> untangle_chart(const Chart& chart, bool may_overlap, int threads, Monitor& monitor) {
   const std::vector<char> bad = bad_triangles(chart), misshapen = misshapen_triangles(chart);
-  Untangled best = untangle_rings(chart, bad, misshapen, may_overlap, threads, monitor);
+  const Mending mending{chart, rings_around(chart, bad), misshapen, may_overlap, threads, monitor};
+  Untangled best = untangle_rings(mending);
+  if (best.loss <= kShapesKept || misshapen == bad) return yielding(mending, std::move(best)).chart;
   // Where the artist's UVs are far from the surface all over, what looks drawn out may be meant.
-  if (best.loss > kShapesKept && misshapen != bad) {
-    Untangled kept = untangle_rings(chart, bad, bad, may_overlap, threads, monitor);
-    if (kept.loss < best.loss) best = std::move(kept);
-  }
-  return best.chart;
+  const Mending as_meant{chart, mending.ring, bad, may_overlap, threads, monitor};
+  Untangled kept = untangle_rings(as_meant);
+  return (kept.loss < best.loss ? yielding(as_meant, std::move(kept)) : yielding(mending, std::move(best))).chart;
 }
 
 }  // namespace atlas_refine
