@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "cut/boundary_places.h"
 #include "cut/restore_faces.h"
 #include "cut_checks.h"
 #include "geometry/convex_polygon.h"
@@ -74,6 +75,57 @@ TEST(CutFaces, NoFaceNamesAVertexTwiceBesideAConesTip) {
     doubled += std::count(out.positions.begin() + k + 1, out.positions.end(), out.positions[k]) > 0;
   EXPECT_GT(doubled, 0) << "the cut does not run across the tip's faces";
   ASSERT_EQ(out.positions.size(), old_vertices + out.mesh.new_vertices.size());
+}
+
+std::map<std::pair<int, int>, int> edge_uses(const std::vector<int>& offsets, const std::vector<int>& corners) {
+  std::map<std::pair<int, int>, int> uses;
+  for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
+    for (int c = offsets[f]; c < offsets[f + 1]; ++c)
+      ++uses[std::minmax(corners[c], corners[c + 1 < offsets[f + 1] ? c + 1 : offsets[f]])];
+  }
+  return uses;
+}
+
+double border_length(const std::vector<Vec3>& positions, const std::map<std::pair<int, int>, int>& uses) {
+  double sum = 0;
+  for (const auto& [edge, used] : uses) {
+    EXPECT_LE(used, 2);
+    if (used == 1) sum += (positions[edge.first] - positions[edge.second]).norm();
+  }
+  return sum;
+}
+
+/// Three triangles in a row, the middle one with two vertices at one place in space, and another chart at one of its edges there.
+Atlas with_vertices_together() {
+  Atlas atlas = flat_atlas({{-1, 0, 0}, {-0.1, 0, 0}, {0.1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 1, 0}, {3, 0, 0}, {4, 0.5, 0}},
+                           {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {5, 6, 7}});
+  for (const int v : {1, 2, 6}) atlas.positions[v] = {0, 0, 0};
+  atlas.positions[5] = atlas.positions[4];
+  return atlas;
+}
+
+TEST(CutFaces, EdgesThatLieTogetherHaveVerticesOfTheirOwnAndStayClosed) {
+  const Atlas atlas = with_vertices_together();
+  Laid laid{atlas, split_charts(atlas), {}, {}, {}};
+  ASSERT_EQ(laid.set.charts.size(), 2u);
+  std::vector<SplitMesh> meshes;
+  for (const Chart& chart : laid.set.charts) meshes.emplace_back(chart);
+  const auto vertex = [&](int v) {
+    return laid.set
+        .corners[std::find(atlas.corner_vertices.begin(), atlas.corner_vertices.end(), v) - atlas.corner_vertices.begin()]
+        .vertex;
+  };
+  for (const int foot : {1, 2}) {
+    const Side side = meshes[0].find_side(vertex(foot), vertex(4));
+    meshes[0].split(side, 0.5, 0.5 * (meshes[0].uvs[vertex(foot)] + meshes[0].uvs[vertex(4)]));
+  }
+  match_boundaries(meshes, laid.set.points);
+  laid.cut = divided_atlas(meshes, laid.set.charts, laid.set.points);
+  const CutFaces out = faces_of(laid);
+  EXPECT_EQ(out.mesh.new_vertices.size(), 2u);
+  EXPECT_EQ(out.positions[8], out.positions[9]);
+  EXPECT_NEAR(border_length(out.positions, edge_uses(out.mesh.face_offsets, out.mesh.corner_vertices)),
+              border_length(atlas.positions, edge_uses(atlas.face_offsets, atlas.corner_vertices)), 1e-12);
 }
 
 /// Every corner of the cut is a mean of corners of the input face that its own face is part of; returns how many are new.
@@ -152,24 +204,6 @@ TEST(CutFaces, FacesKeepAreaAndWindingInSpace) {
     }
     for (int f = 0; f < atlas.face_count(); ++f) EXPECT_LT((after[f] - before[f]).norm(), 1e-9 * before[f].norm() + 1e-15);
   }
-}
-
-std::map<std::pair<int, int>, int> edge_uses(const std::vector<int>& offsets, const std::vector<int>& corners) {
-  std::map<std::pair<int, int>, int> uses;
-  for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
-    for (int c = offsets[f]; c < offsets[f + 1]; ++c)
-      ++uses[std::minmax(corners[c], corners[c + 1 < offsets[f + 1] ? c + 1 : offsets[f]])];
-  }
-  return uses;
-}
-
-double border_length(const std::vector<Vec3>& positions, const std::map<std::pair<int, int>, int>& uses) {
-  double sum = 0;
-  for (const auto& [edge, used] : uses) {
-    EXPECT_LE(used, 2);
-    if (used == 1) sum += (positions[edge.first] - positions[edge.second]).norm();
-  }
-  return sum;
 }
 
 TEST(CutFaces, TheSurfaceStaysClosedAlsoAfterFacesAreRestored) {

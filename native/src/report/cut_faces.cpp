@@ -101,11 +101,45 @@ std::vector<int> outline_of(const Chart& mesh, const std::vector<int>& triangles
   return loop.size() == next.size() ? loop : std::vector<int>();
 }
 
+/// The ends of an edge of the input, the smaller vertex first.
+using Ends = std::pair<int, int>;
+
 /// The points that pieces use.
 struct UsedPoints {
   std::vector<int> index;  ///< of each point among `vertices`, -1 where no piece uses it any more
   std::vector<NewVertex> vertices;
+  std::set<Ends> lie_together = {};
+  std::map<std::pair<int, Ends>, int> of_edges = {};  ///< the vertex for an index on such an edge
+  std::set<int> taken = {};                           ///< indices that such an edge has as they are
 };
+
+/// The input's, of each chart's vertex.
+std::vector<std::vector<int>> vertices_of_charts(const Sources& in) {
+  std::vector<std::vector<int>> out;
+  for (const Chart& chart : in.set.charts) out.emplace_back(chart.vertex_count(), -1);
+  for (int c = 0; c < in.atlas.corner_count(); ++c) {
+    const CornerRef& corner = in.set.corners[c];
+    if (corner.chart >= 0) out[corner.chart][corner.vertex] = in.atlas.corner_vertices[c];
+  }
+  return out;
+}
+
+/// Edges that lie where another edge of their triangle lies, as beside a cone's tip that is many vertices at one place.
+std::set<Ends> edges_that_lie_together(const Sources& in) {
+  const std::vector<std::vector<int>> vertices = vertices_of_charts(in);
+  std::set<Ends> out;
+  for (std::size_t c = 0; c < vertices.size(); ++c) {
+    const std::vector<int>& points = in.set.points[c];
+    for (const Triangle& t : in.set.charts[c].triangles) {
+      for (int k = 0; k < 3; ++k) {
+        const int a = t[k], b = t[(k + 1) % 3], tip = t[(k + 2) % 3];
+        if (points[a] != points[b]) continue;
+        for (const int end : {a, b}) out.insert(std::minmax(vertices[c][end], vertices[c][tip]));
+      }
+    }
+  }
+  return out;
+}
 
 /// A point as corners of one face of its own chart; nothing where the face is another one.
 std::optional<NewVertex> point_on_face(const Sources& in, int face, const Support& support) {
@@ -123,7 +157,7 @@ std::optional<NewVertex> point_on_face(const Sources& in, int face, const Suppor
 
 /// Each point gets its corners from the first face that has it.
 UsedPoints used_points(const Sources& in, const std::vector<std::vector<FacePart>>& parts) {
-  UsedPoints out{std::vector<int>(in.cut.points.size(), -1), {}};
+  UsedPoints out{.index = std::vector<int>(in.cut.points.size(), -1), .vertices = {}};
   int count = 0;
   for (const Piece& piece : in.cut.pieces) {
     for (int point : piece.points) {
@@ -194,22 +228,40 @@ void start_at_lowest_corner(const Sources& in, int face, const Piece& piece, std
   std::rotate(outline.begin(), start, outline.end());
 }
 
-/// The new vertex for a point. Beside a cone's tip two points of one face may be one place in space: the second is doubled.
-int new_vertex(const Sources& in, int point, UsedPoints& points, CutFaces& out) {
-  const int index = points.index[point];
+int doubled(int index, const Sources& in, UsedPoints& points, CutFaces& out) {
+  points.vertices.push_back(NewVertex(points.vertices[index]));
+  out.positions.push_back(Vec3(out.positions[in.atlas.positions.size() + index]));
+  return static_cast<int>(points.vertices.size()) - 1;
+}
+
+/// The index of a point's new vertex, seen from `face`. Of edges that lie together each has its own; where a face runs along one
+/// edge to and fro, the second is doubled.
+int new_vertex(const Sources& in, int face, const Piece& piece, int v, UsedPoints& points, CutFaces& out) {
+  int index = points.index[piece.points[v]];
+  const Support& support = piece.supports[v];
+  if (support.vertices[2] < 0) {
+    const auto vertex = [&](int k) { return in.atlas.corner_vertices[in.corner_of(face, support.vertices[k])]; };
+    const Ends edge = std::minmax(vertex(0), vertex(1));
+    if (const auto own = points.of_edges.find({index, edge}); own != points.of_edges.end()) {
+      index = own->second;
+    } else if (points.lie_together.contains(edge)) {
+      const bool free = points.taken.insert(index).second;
+      const int fresh = free ? index : doubled(index, in, points, out);
+      points.of_edges.emplace(std::pair(index, edge), fresh);
+      index = fresh;
+    }
+  }
   const auto first = out.mesh.corner_vertices.begin() + out.mesh.face_offsets.back();
   const int vertex = static_cast<int>(in.atlas.positions.size()) + index;
-  if (std::find(first, out.mesh.corner_vertices.end(), vertex) == out.mesh.corner_vertices.end()) return index;
-  points.vertices.push_back(NewVertex(points.vertices[index]));
-  out.positions.push_back(Vec3(out.positions[vertex]));
-  return static_cast<int>(points.vertices.size()) - 1;
+  const bool named = std::find(first, out.mesh.corner_vertices.end(), vertex) != out.mesh.corner_vertices.end();
+  return named ? doubled(index, in, points, out) : index;
 }
 
 void add_face(const Sources& in, int face, int piece, const std::vector<int>& outline, UsedPoints& points, CutFaces& out) {
   const Piece& p = in.cut.pieces[piece];
   for (int v : outline) {
     const int corner = p.vertices[v] >= 0 ? in.corner_of(face, p.vertices[v]) : -1;
-    const int index = corner >= 0 ? -1 : new_vertex(in, p.points[v], points, out);
+    const int index = corner >= 0 ? -1 : new_vertex(in, face, p, v, points, out);
     const CornerMean mean = corner >= 0 ? CornerMean{{corner, corner, corner}, Vec3(1, 0, 0)}
                                         : mean_on_face(in, face, p.supports[v], points.vertices[index]);
     out.mesh.corner_vertices.push_back(corner >= 0 ? in.atlas.corner_vertices[corner]
@@ -286,15 +338,11 @@ std::vector<std::vector<int>> outlines_of(const Sources& in, const UsedPoints& p
 }
 
 std::vector<std::array<int, 2>> seams_of(const Sources& in, const UsedPoints& points) {
-  std::vector<std::vector<int>> vertex_of_chart;  // the input's, of each chart's vertex
-  for (const Chart& chart : in.set.charts) vertex_of_chart.emplace_back(chart.vertex_count(), -1);
-  for (int c = 0; c < in.atlas.corner_count(); ++c)
-    if (in.set.corners[c].chart >= 0)
-      vertex_of_chart[in.set.corners[c].chart][in.set.corners[c].vertex] = in.atlas.corner_vertices[c];
+  const std::vector<std::vector<int>> vertices = vertices_of_charts(in);
   std::vector<std::array<int, 2>> out;
   for (const Seam& seam : in.cut.seams) {
     const auto vertex = [&](int end) {
-      return end < 0 ? static_cast<int>(in.atlas.positions.size()) + points.index[~end] : vertex_of_chart[seam.chart][end];
+      return end < 0 ? static_cast<int>(in.atlas.positions.size()) + points.index[~end] : vertices[seam.chart][end];
     };
     out.push_back({vertex(seam.ends[0]), vertex(seam.ends[1])});
   }
@@ -307,6 +355,7 @@ CutFaces cut_faces(const Atlas& atlas, const ChartSet& set, const CutAtlas& cut,
   const Sources in{atlas, set, cut, options};
   const std::vector<std::vector<FacePart>> parts = parts_of_faces(in);
   UsedPoints points = used_points(in, parts);
+  points.lie_together = edges_that_lie_together(in);
   CutFaces out;
   out.mesh.face_offsets = {0};
   out.positions = positions_with(in, points.vertices);
