@@ -153,7 +153,8 @@ def divided(before, after):
         problems.append("file: a part of a face stands in another group, material or smoothing group")
     if not kept_normals(before, after, sources):
         problems.append("file: normals of corners differ")
-    opened = abs(open_length(after) - open_length(before))
+    # It may become less: a new vertex of a long edge can meet one of two shorter ones that lie along it.
+    opened = open_length(after) - open_length(before)
     if opened > NEAR * float(division.size.sum()):
         problems.append(f"surface: edges of length {opened:.3g} are open that were not")
     # Faces that share an edge share its new vertices too, or it is open for whoever reads the file.

@@ -126,6 +126,14 @@ def test_edge_divided_on_one_side_only(tmp_path):
     assert "edges of length 2.83 are open" in problems(tmp_path, one_sided)
 
 
+def test_long_edge_divided_where_shorter_ones_meet_that_lie_along_it(tmp_path):
+    before = "v 0 0 0\nv 2 0 0\nv 1 1 0\nv 1 0 0\nv 0.5 -1 0\nv 1.5 -1 0\n"
+    before += "vt 0 0\nvt 0.2 0\nvt 0.1 0.1\nvt 0.5 0.5\nvt 0.55 0.4\nvt 0.6 0.5\nvt 0.75 0.4\nvt 0.8 0.5\nvt 0.7 0.5\n"
+    after = before + "v 1 0 0\nvt 0.1 0\nf 1/1 7/10 3/3\nf 7/10 2/2 3/3\n"
+    below = "f 1/4 5/5 4/6\nf 4/9 6/7 2/8\n"
+    assert problems(tmp_path, after + below, before + "f 1/1 2/2 3/3\n" + below) == ""
+
+
 def test_part_in_another_group(tmp_path):
     moved = APART.replace("g two\nusemtl other\n", "").replace("f 1/1/1 7/9", "g two\nusemtl other\nf 1/1/1 7/9")
     assert "another group" in problems(tmp_path, moved)
