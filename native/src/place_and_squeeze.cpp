@@ -12,6 +12,7 @@
 #include "reduce/squeeze.h"
 #include "report/locked.h"
 #include "report/note_repairs.h"
+#include "report/stored.h"
 #include "report/texture.h"
 
 namespace atlas_refine {
@@ -274,19 +275,16 @@ bool part_pinches(const Refinement& run, const Freedoms& freedom, std::vector<Ch
   return parted;
 }
 
-/// Borders that are apart by no more than rounding may touch where the texture has them, and nothing bends them any more.
+/// Slits that would close where they are stored are parted: nothing bends these charts any more.
 bool part_slits(const Refinement& run, const PlacedCharts& placed, const std::vector<std::vector<int>>& points,
                 const Freedoms& freedom, std::vector<Chart>& charts) {
-  const Box box = box_of(placed, run.options.box_aspect);
-  const double side = box.size().maxCoeff();
+  const auto stored = stored_uvs(placed.charts, placed.frame, run.input.origin, run.options);
   bool parted = false;
   for (std::size_t c = 0; c < charts.size(); ++c) {
     if (is_fixed(freedom, c)) continue;
-    Chart stored = placed.charts[c];
-    for (Vec2& uv : stored.uvs) uv = (uv - box.min) / side;
-    if (certify_charts({stored}, {points[c]}).valid()) continue;
-    charts[c] = made_valid(run, stored);
-    for (Vec2& uv : charts[c].uvs) uv *= side;
+    const auto broken = broken_as_stored(placed.charts[c], points[c], stored[c], run.options.box_aspect);
+    if (!broken) continue;
+    charts[c] = made_valid(run, *broken);
     parted = true;
   }
   return parted;

@@ -10,6 +10,7 @@
 #include "report/certify.h"
 #include "report/cut_faces.h"
 #include "report/kept_faces.h"
+#include "report/stored.h"
 
 namespace atlas_refine {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "atlas_refine/error.h"
@@ -15,32 +14,12 @@
 #include "report/journal.h"
 #include "report/kept_faces.h"
 #include "report/locked.h"
+#include "report/stored.h"
 #include "report/texture.h"
 #include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
-
-/// UVs in the unit square at `origin`, or at the density that is asked, as they will be stored, per piece.
-std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, const Vec2& frame, const Vec2& origin,
-                                          const RefineOptions& options) {
-  const double aspect = options.box_aspect, border = border_of(options);
-  const Vec2 corner = aspect > 0 ? Vec2(border / aspect, border) : Vec2(Vec2::Zero()), part = 1 - 2 * corner.array();
-  const Box box = frame.x() > 0 ? Box{Vec2::Zero(), frame} : box_of_aspect(uv_box(pieces), aspect * part.x() / part.y());
-  const double unit = options.uv_density > 0 ? texel_density(pieces) / options.uv_density : box.size().maxCoeff();
-  const Vec2 sides = aspect > 0 ? box.size() : Vec2::Constant(unit);
-  const double most = options.uv_density > 0 ? std::numeric_limits<double>::infinity() : 1.0;
-  std::vector<std::vector<Vec2>> out;
-  for (const Chart& piece : pieces) {
-    std::vector<Vec2>& uvs = out.emplace_back();
-    for (const Vec2& p : piece.uvs) {
-      const Vec2 within = (p - box.min).cwiseQuotient(sides).cwiseMin(most);
-      const Vec2 uv = origin + corner + within.cwiseProduct(part);
-      uvs.push_back(as_stored(uv, options.stored));
-    }
-  }
-  return out;
-}
 
 /// The faces of the charts that take part as they come out, and what each of their corners stands for.
 CutFaces faces_of(const InputAtlas& input, const CutAtlas& atlas, const CutFaceOptions& options, bool divided) {
@@ -242,13 +221,6 @@ std::vector<Chart> pieces_of_input(const InputAtlas& input, const CutAtlas& atla
 }
 
 }  // namespace
-
-Vec2 as_stored(const Vec2& uv, Stored stored) {
-  if (stored == Stored::Double) return uv;
-  // GCC 12 drops the plain round trip where it vectorises two of them.
-  volatile float u = static_cast<float>(uv.x()), v = static_cast<float>(uv.y());
-  return {u, v};
-}
 
 CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap& gap, const RefineOptions& options) {
   const PhaseScope scope(Phase::Certificate);

@@ -18,9 +18,6 @@ struct CertifiedAtlas {
   std::vector<Chart> stored;        ///< the pieces in units of the texture, on their surfaces
 };
 
-/// The value that is left after storing it.
-Vec2 as_stored(const Vec2& uv, Stored stored);
-
 /// Scales the pieces into the unit square at the input's origin, or to the density that is asked, rounds their UVs as they will
 /// be stored, and tests just those values with exact predicates: every triangle and guard positive, no borders crossing or
 /// touching, the gap kept, the seams those that were meant. Pure: the same arguments give the same answer. Throws
