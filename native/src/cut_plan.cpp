@@ -93,11 +93,11 @@ void scale_fixed(const Refinement& run, CutPlan& plan) {
   }
 }
 
-/// The meshes' vertices told by those of the input's charts; a chart that was opened has more.
-void refer_to_input(const CutAtlas& repaired, std::vector<AxisAlignedChart>& aligned) {
+/// The meshes' vertices told by those of the input's charts, no longer of `atlas`; a chart that was opened has more there.
+void refer_to_input(const CutAtlas& atlas, std::vector<AxisAlignedChart>& aligned) {
   for (std::size_t c = 0; c < aligned.size(); ++c) {
     for (Support& support : aligned[c].mesh.supports) {
-      for (int& v : support.vertices) v = v >= 0 ? repaired.pieces[c].vertices[v] : v;
+      for (int& v : support.vertices) v = v >= 0 ? atlas.pieces[c].vertices[v] : v;
     }
   }
 }
@@ -132,12 +132,12 @@ CutPlan plan_cuts(const Refinement& run, const ProgressRange& range) {
   plan.prices = price_sides(run.input.atlas, run.input.set, options);
   align(run, plan);
   scale_fixed(run, plan);
-  refer_to_input(repaired.atlas, plan.aligned);
   plan.sources = charts_before_opening(run, repaired.atlas, plan.charts);
   plan.atlas = with_uvs(std::move(repaired.atlas), uvs_of(plan.charts));
 
   run.journal.begin_stage("layout", range.part(0.78, 1));  // section 3.2
   plan.layout = search_layout(plan.aligned, plan.charts, layout_options(run), run.monitor);
+  refer_to_input(plan.atlas, plan.aligned);
   return plan;
 }
 

@@ -12,7 +12,9 @@
 #include "charts.h"
 #include "closed_shapes.h"
 #include "geometry/rest_triangle.h"
+#include "measure/distortion.h"
 #include "refine_checks.h"
+#include "repair/bad_triangles.h"
 #include "repair_checks.h"
 #include "shapes.h"
 
@@ -41,6 +43,25 @@ TEST(OpenedCharts, ClosedChartsAreOpenedWherePermitted) {
     testing::expect_certified(meshes_of(out.atlas));
     EXPECT_LT(dirichlet_sums(out.atlas.pieces[0].mesh).best_energy(), most);
   }
+}
+
+TEST(OpenedCharts, WhatTheyWereBeforeIsTakenTriangleByTriangleForTheyHaveMoreVerticesNow) {
+  Chart before = shapes::unparted(shapes::torus(24, 12)).front();
+  before.guards.clear();  // with them both divisions of a quad count
+  const RepairedCharts out = testing::repaired({before}, {.open_closed = true});
+  ASSERT_EQ(out.repairs.size(), 1u);
+  const Chart& after = out.atlas.pieces[0].mesh;
+  ASSERT_GT(after.vertex_count(), before.vertex_count());
+  const std::vector<char> misshapen = misshapen_triangles(before);
+  std::vector<RestTriangle> shapes;
+  std::vector<Triangle> triangles;
+  for (std::size_t t = 0; t < misshapen.size(); ++t) {
+    if (misshapen[t]) continue;
+    const Triangle& v = before.triangles[t];
+    shapes.push_back(rest_from_plane(before.uvs[v[0]], before.uvs[v[1]], before.uvs[v[2]], 1));
+    triangles.push_back(after.triangles[t]);
+  }
+  EXPECT_NEAR(out.repairs[0].distortion_to_input, dirichlet_sums(shapes, triangles, after.uvs).best_energy(), 1e-9);
 }
 
 TEST(OpenedCharts, ACubeBecomesACrossOrAnotherNet) {

@@ -203,6 +203,13 @@ void append(CutAtlas own, int chart, CutAtlas& all) {
   for (const Seam& seam : own.seams) all.seams.push_back({chart, seam.ends});
 }
 
+/// The chart as it was, on the vertices of a piece that is the whole of it: where it was opened these are more.
+Chart before_repair(const Chart& chart, const Piece& piece) {
+  Chart before = piece.mesh;
+  for (int v = 0; v < before.vertex_count(); ++v) before.uvs[v] = chart.uvs[piece.vertices[v]];
+  return before;
+}
+
 void repair_chart(const Chart& chart, int index, const RepairOptions& options, Monitor& monitor, RepairedCharts& out) {
   const std::vector<char> bad = bad_triangles(chart);
   std::optional<Mended> result;
@@ -217,8 +224,10 @@ void repair_chart(const Chart& chart, int index, const RepairOptions& options, M
   }
   for (Piece& piece : result->atlas.pieces)
     piece.mesh = convex_again(without_lost_guards(piece.mesh, chart), options.threads, monitor);
-  if (std::find(bad.begin(), bad.end(), 0) != bad.end())
-    repair.distortion_to_input = distortion_to_good(chart, result->atlas.pieces[0].mesh);
+  if (std::find(bad.begin(), bad.end(), 0) != bad.end()) {
+    const Piece& piece = result->atlas.pieces[0];
+    repair.distortion_to_input = distortion_to_good(before_repair(chart, piece), piece.mesh);
+  }
   for (Piece& piece : result->atlas.pieces) drop_broken_guards(piece.mesh);
   append(std::move(result->atlas), index, out.atlas);
   out.repairs.push_back(repair);
