@@ -16,7 +16,7 @@ from .bridge import parts as objects
 from .bridge import versions
 from .bridge.texture import find_texture
 from .changes import Watch
-from .core.overlay import Look, picture_of
+from .core.overlay import Look, Source, picture_of
 from .drawing import redraw_panels, redraw_views
 from .properties import to_options
 
@@ -129,7 +129,7 @@ def _map_of(obj, wanted):
 
 def _build(context, found):
     uv_map = context.scene.atlas_refine.uv_map
-    sources = {obj.name: _source(obj, uv_map) for obj in found}
+    sources = {obj.name: _source(obj, uv_map, context.view_layer.depsgraph) for obj in found}
     sources = {name: source for name, source in sources.items() if source is not None}
     if not sources:
         return {}
@@ -137,13 +137,14 @@ def _build(context, found):
     return {name: Batches(picture) for name, picture in zip(sources, pictures, strict=True)}
 
 
-def _source(obj, uv_map):
-    """What picture_of() takes; None for a mesh that cannot be read, of which the operators say why."""
+def _source(obj, uv_map, depsgraph):
+    """None for a mesh that cannot be read, of which the operators say why."""
     try:
         atlas = bridge.read_atlas(obj, bridge.find_uv_map(obj.data, uv_map))
     except bridge.MeshError:
         return None
-    return atlas, bridge.read_triangles(obj), objects.scale_of(obj), tasks.new_seams(obj.name)
+    triangles, shown = bridge.read_triangles(obj), bridge.read_shown_positions(obj, depsgraph)
+    return Source(atlas, triangles, objects.scale_of(obj), tasks.new_seams(obj.name), shown)
 
 
 def _draw_in_uv_editor():
