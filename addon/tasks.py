@@ -163,7 +163,7 @@ class Run:
 
     writes = True
 
-    def __init__(self, context, options, beside_window=False, keywords=None):
+    def __init__(self, context, options, keywords=None, beside_window=False):
         """`keywords`: the engine's, besides those of the options."""
         self.problems = []  # (object's name, why nothing was done with it)
         self.atlases = self._read(context, options)
