@@ -182,7 +182,7 @@ def _refine_file(item, options, arguments, record):
     with bpy.context.temp_override(active_object=objects[0], selected_objects=objects):
         run = _run_to_the_end(options, arguments.point)
         done = run.finish()
-    record["atlases"] = [atlas_record(one.title, one.result, one.notes) for one in done]
+    record["atlases"] = [atlas_record(one.title, one.result, one.told) for one in done]
     record["problems"] = [{"object": name, "message": plain(text)} for name, text in run.problems]
     record["left_out"] = left_out
     record["status"] = DONE if not run.problems else PARTLY if done else FAILED
@@ -198,7 +198,7 @@ def _refine_file(item, options, arguments, record):
 
 def _told(done):
     yield f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}"
-    for note in (*done.notes, *notes(done.result)):
+    for note in (*done.told, *notes(done.result)):
         yield titled(done.title, note)
 
 

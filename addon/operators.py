@@ -58,7 +58,7 @@ class UV_OT_atlas_refine(Runs, bpy.types.Operator):
             return {"CANCELLED"}
         all_done = run.finish()
         for done in all_done:
-            for note in (*done.notes, *notes(done.result)):
+            for note in (*done.told, *notes(done.result)):
                 self.report({"WARNING"}, titled(done.title, note))
         if waiting := len(run.atlases) - len(run.begun):
             self.report({"WARNING"}, f"Stopped before the turn of {counted(waiting, 'more object')}, left as before")

@@ -100,6 +100,14 @@ class _Overlay:
         overlay_settings.draw(self.layout, context)
 
 
+def _draw_density(layout, density):
+    for line in density_lines(density):
+        layout.label(text=line)
+    if density.size_to_take and not density.of_image:
+        button = layout.operator("wm.context_set_int", text=f"Set Texture Size to {density.size_to_take}")
+        button.data_path, button.value = "scene.atlas_refine.texture_size", density.size_to_take
+
+
 class _Result:
     bl_label = "Last Result"
 
@@ -113,8 +121,7 @@ class _Result:
             if done.result is None:
                 box.label(text=f"{done.title}: measured", icon="INFO")
                 box.label(text=measured(done.measures, done.is_free, done.reached_beyond))
-                for line in density_lines(done.density):
-                    box.label(text=line)
+                _draw_density(box, done.density)
             else:
                 self._draw_result(box, done)
 
@@ -132,8 +139,7 @@ class _Result:
         layout.label(text=distortion(after).capitalize())
         for line in new_seams(done.result):
             layout.label(text=line.capitalize())
-        for line in density_lines(done.density):
-            layout.label(text=line)
+        _draw_density(layout, done.density)
         if done.result.cut is not None:
             faces = faces_after(done.result, done.face_count)
             layout.label(text=f"Faces {done.face_count} -> {faces}, charts {before.chart_count} -> {after.chart_count}")

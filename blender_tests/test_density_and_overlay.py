@@ -48,6 +48,19 @@ class Density(unittest.TestCase):
         needed = int(lines[2].split(" px:")[0].split()[-1])
         self.assertAlmostEqual(needed / 1024, 1000.0 / found.after, delta=2e-3)
 
+    def test_a_script_is_told_that_the_texture_is_too_small(self):
+        add_mesh()
+        options = {"density": "VALUE", "texel_density": 1000.0}
+        told = messages(bpy.ops.uv.atlas_refine, texture_size=1024, **options)
+        (done,) = module("tasks").last
+        size = done.density.size_to_take
+        self.assertIn(f"1000 px/m need a texture of {done.density.needed_px} px and this one has 1024: take {size}", told)
+        fresh_scene()
+        add_mesh()
+        self.assertNotIn("px/m", messages(bpy.ops.uv.atlas_refine, texture_size=size, **options))
+        (done,) = module("tasks").last
+        self.assertGreaterEqual(done.density.after, 1000.0)
+
     def test_measure_tells_it_and_changes_nothing(self):
         obj = add_mesh()
         before = snapshot(obj)
