@@ -157,8 +157,9 @@ class Headless(unittest.TestCase):
                 before = source.read_bytes()
                 code, out, err = self.run_it(source, "-o", self.folder / "out")
                 if source.suffix in {".glb", ".gltf"} and GLTF_IS_BROKEN:
-                    self.assertIn("importer failed: AttributeError: module 'numpy'", err)
-                    self.assertEqual((code, len(err.splitlines())), (3, 1))
+                    (told,) = (line for line in err.splitlines() if line.startswith("atlas_refine: "))  # the importer tells more
+                    self.assertIn("importer failed: AttributeError: module 'numpy'", told)
+                    self.assertEqual(code, 3)
                     continue
                 self.assertEqual((code, err), (0, ""))
                 self.assertIn("Texture use", out)
