@@ -12,7 +12,7 @@ for _name in [name for name in sys.modules if name.startswith(f"{__name__}.")]:
     del sys.modules[_name]
     globals().pop(_name.removeprefix(f"{__name__}."), None)
 
-from . import headless, operators, overlay_settings, panels, preferences, presets, settings
+from . import headless, operators, overlay_settings, panels, preferences, presets, reinstalled, settings
 
 bl_info = {
     "name": "Atlas Refine",
@@ -24,7 +24,7 @@ bl_info = {
     "category": "UV",
 }
 
-MODULES = (preferences, settings, operators, presets, overlay_settings, panels, headless)
+MODULES = (preferences, settings, operators, presets, overlay_settings, panels, headless, reinstalled)
 
 
 def register():

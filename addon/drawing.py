@@ -27,11 +27,11 @@ def draw_main(layout, holder, context):
     if holder.gap == "PIXELS":
         layout.prop(holder, "gap_px", text="Pixels")
     if texture is None and (holder.gap == "PIXELS" or holder.density == "VALUE"):
-        layout.prop(holder, "texture_size")
+        layout.prop(holder, "texture_size", text="Texture px")
     layout.prop(holder, "stacks")
-    layout.prop(holder, "density")
+    layout.prop(holder, "density", text="Density")
     if holder.density == "VALUE":
-        layout.prop(holder, "texel_density", text="Density")
+        layout.prop(holder, "texel_density", text="px / m")
     if len(objects.objects_of(context)) > 1 or holder.atlases != "ALL" or _has_materials(active):
         layout.prop(holder, "atlases")
     layout.prop(holder, "tiles")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many .blend files without a window: `blender --command atlas_refine`, or atlas_refine_headless.py (docs/headless.md)."""
+"""Many files without a window: `blender --command atlas_refine`, or atlas_refine_headless.py (docs/headless.md)."""
 
 import shutil
 import signal
@@ -12,8 +12,8 @@ from fnmatch import fnmatchcase
 
 import bpy
 
-from . import engine, presets, tasks
-from .bridge import parts, versions
+from . import engine, presets, tasks, trade_off
+from .bridge import files, parts, versions
 from .core.batch_arguments import PROGRAM, USAGE, UsageError, read_arguments
 from .core.batch_record import (
     DONE,
@@ -58,6 +58,8 @@ def main(argv):
                 print("\n".join(dict.fromkeys(preset.name for preset in presets.all_presets())))
                 return 0
             options = _options(arguments)
+            if arguments.point is not None and options.seams != "NEEDED":
+                raise UsageError("--point is of --seams needed")
             for folder in {item.output.parent for item in arguments.items if item.output != item.source}:
                 _make_folder(folder)
             codes = [_refine(item, options, arguments, at) for at, item in enumerate(arguments.items, 1)]
@@ -114,14 +116,14 @@ def _refine(item, options, arguments, at):
     """Does one file, prints what came of it, and returns its exit code. Whatever goes wrong, the next one is done."""
     began = time.monotonic()
     asked = {"program": "atlas-refine", "version": engine.module.__version__, "options": asdict(options)}
-    asked["objects"] = arguments.chosen
+    asked.update(objects=arguments.chosen, point=arguments.point)
     record = {**asked, "blender": bpy.app.version_string, "input": str(item.source), "output": str(item.output)}
     lines = []
     print(f"[{at}/{len(arguments.items)}] {item.source}", flush=True)
     try:
         if not item.source.is_file():
             raise FileError("there is no such file")
-        record["input_sha256"] = sha256(item.source)
+        record["input_sha256"] = sha256(*files.files_of(item.source))
         if not arguments.again and item.output.exists() and _was_done(item, record["input_sha256"], asked):
             print("  done already", flush=True)
             return 0
@@ -151,7 +153,7 @@ def _code(error):
         return _OF_THE_ENGINE.get(error.code, INTERNAL)
     if isinstance(error, OutputError):
         return USAGE
-    if isinstance(error, (FileError, *tasks.FAILURES, OSError, MemoryError)):
+    if isinstance(error, (FileError, files.UnreadableError, *tasks.FAILURES, OSError, MemoryError)):
         return INPUT
     traceback.print_exception(error)
     return INTERNAL
@@ -178,9 +180,9 @@ def _refine_file(item, options, arguments, record):
     _open(item.source)
     objects, left_out = _chosen(arguments)
     with bpy.context.temp_override(active_object=objects[0], selected_objects=objects):
-        run = _run_to_the_end(options)
+        run = _run_to_the_end(options, arguments.point)
         done = run.finish()
-    record["atlases"] = [atlas_record(one.title, one.result, one.notes) for one in done]
+    record["atlases"] = [atlas_record(one.title, one.result, one.told) for one in done]
     record["problems"] = [{"object": name, "message": plain(text)} for name, text in run.problems]
     record["left_out"] = left_out
     record["status"] = DONE if not run.problems else PARTLY if done else FAILED
@@ -196,12 +198,12 @@ def _refine_file(item, options, arguments, record):
 
 def _told(done):
     yield f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}"
-    for note in (*done.notes, *notes(done.result)):
+    for note in (*done.told, *notes(done.result)):
         yield titled(done.title, note)
 
 
-def _run_to_the_end(options):
-    run = tasks.Run(bpy.context, options)
+def _run_to_the_end(options, point):
+    run = tasks.Run(bpy.context, *trade_off.picked(options, point))
     try:
         while not run.wait(_WAIT_SECONDS):
             pass
@@ -214,13 +216,8 @@ def _run_to_the_end(options):
 def _open(source):
     with open(source, "rb"):  # for the system's own words where it cannot be read
         pass
-    try:
-        with _ctrl_c_kills():
-            bpy.ops.wm.open_mainfile(filepath=str(source), load_ui=True, use_scripts=False)
-    except RuntimeError as error:
-        raise FileError(f"Blender cannot open it: {' '.join(str(error).split())}") from None
-    if bpy.context.mode != "OBJECT":
-        bpy.ops.object.mode_set(mode="OBJECT")
+    with _ctrl_c_kills():
+        files.open_file(source)
 
 
 def _chosen(arguments):

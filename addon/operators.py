@@ -49,10 +49,8 @@ class UV_OT_atlas_refine(Runs, bpy.types.Operator):
         except PresetError as error:
             self.report({"ERROR"}, str(error))
             return None
-        options, keywords = to_options(self), {}
-        if self.point >= 0:
-            options, keywords = options.for_trade_off(), {**trade_off.SEARCH, "point": self.point}
-        return self._begun(tasks.Run(context, options, beside_window, keywords))
+        options = trade_off.picked(to_options(self), None if self.point < 0 else self.point)
+        return self._begun(tasks.Run(context, *options, beside_window))
 
     def _finish(self, run):
         if run.cancelled:
@@ -60,7 +58,7 @@ class UV_OT_atlas_refine(Runs, bpy.types.Operator):
             return {"CANCELLED"}
         all_done = run.finish()
         for done in all_done:
-            for note in (*done.notes, *notes(done.result)):
+            for note in (*done.told, *notes(done.result)):
                 self.report({"WARNING"}, titled(done.title, note))
         if waiting := len(run.atlases) - len(run.begun):
             self.report({"WARNING"}, f"Stopped before the turn of {counted(waiting, 'more object')}, left as before")

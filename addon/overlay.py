@@ -16,15 +16,16 @@ from .bridge import parts as objects
 from .bridge import versions
 from .bridge.texture import find_texture
 from .changes import Watch
-from .core.overlay import Look, picture_of
+from .core.overlay import Look, Source, picture_of
 from .drawing import redraw_panels, redraw_views
 from .properties import to_options
 
 #: While a mesh is being changed it is drawn anew no more often than takes this part of the time.
 BUSY_PART = 0.2
 SEAM_WIDTH, NEAR_WIDTH = 3.0, 5.0
-#: The 3D view's batches are drawn so much nearer to the viewer than the faces that they lie on, as a part of the distance.
-NEARER = 0.002
+#: The 3D view's batches are drawn so much nearer to the viewer than the faces that they lie on, as a part of the distance: lines more,
+#: of whose width one half would else lie below a face that comes towards the viewer.
+NEARER, NEARER_LINES = 0.002, 0.006
 
 #: Which layers are shown. Of this run of Blender: no file keeps it.
 shown = {"stretch": False, "seams": False, "gap": False}
@@ -129,7 +130,7 @@ def _map_of(obj, wanted):
 
 def _build(context, found):
     uv_map = context.scene.atlas_refine.uv_map
-    sources = {obj.name: _source(obj, uv_map) for obj in found}
+    sources = {obj.name: _source(obj, uv_map, context.view_layer.depsgraph) for obj in found}
     sources = {name: source for name, source in sources.items() if source is not None}
     if not sources:
         return {}
@@ -137,13 +138,14 @@ def _build(context, found):
     return {name: Batches(picture) for name, picture in zip(sources, pictures, strict=True)}
 
 
-def _source(obj, uv_map):
-    """What picture_of() takes; None for a mesh that cannot be read, of which the operators say why."""
+def _source(obj, uv_map, depsgraph):
+    """None for a mesh that cannot be read, of which the operators say why."""
     try:
         atlas = bridge.read_atlas(obj, bridge.find_uv_map(obj.data, uv_map))
     except bridge.MeshError:
         return None
-    return atlas, bridge.read_triangles(obj), objects.scale_of(obj), tasks.new_seams(obj.name)
+    triangles, shown = bridge.read_triangles(obj), bridge.read_shown_positions(obj, depsgraph)
+    return Source(atlas, triangles, objects.scale_of(obj), tasks.new_seams(obj.name), shown)
 
 
 def _draw_in_uv_editor():
@@ -152,7 +154,8 @@ def _draw_in_uv_editor():
         return
     gpu.state.blend_set("ALPHA")
     for batches in _cache.of(context).values():
-        _draw(context, batches, "uv")
+        _draw_faces(batches, "uv")
+        _draw_lines(context, batches, "uv")
     gpu.state.blend_set("NONE")
 
 
@@ -167,22 +170,27 @@ def _draw_in_3d_view():
         if obj is None or not obj.visible_get():
             continue
         with gpu.matrix.push_pop():
-            gpu.matrix.load_matrix(_nearer(context.region_data) @ obj.matrix_world)
-            _draw(context, batches, "space")
+            gpu.matrix.load_matrix(_nearer(context.region_data, NEARER) @ obj.matrix_world)
+            _draw_faces(batches, "space")
+            gpu.matrix.load_matrix(_nearer(context.region_data, NEARER_LINES) @ obj.matrix_world)
+            _draw_lines(context, batches, "space")
     gpu.state.depth_test_set("NONE")
     gpu.state.blend_set("NONE")
 
 
-def _nearer(view):
-    """The view's matrix, with everything a little nearer to the viewer and at the same place of the screen."""
+def _nearer(view, part):
+    """The view's matrix, with everything nearer to the viewer by a part of the distance and at the same place of the screen."""
     if view.is_perspective:
-        return Matrix.Scale(1 - NEARER, 4) @ view.view_matrix
-    return Matrix.Translation((0, 0, NEARER * view.view_distance)) @ view.view_matrix
+        return Matrix.Scale(1 - part, 4) @ view.view_matrix
+    return Matrix.Translation((0, 0, part * view.view_distance)) @ view.view_matrix
 
 
-def _draw(context, batches, where):
+def _draw_faces(batches, where):
     if where in batches.faces:
         batches.faces[where].draw(versions.shader("FLAT_COLOR"))
+
+
+def _draw_lines(context, batches, where):
     chosen = preferences.get()
     lines = versions.shader("POLYLINE_UNIFORM_COLOR")
     for layer, width, colour in (("seams", SEAM_WIDTH, chosen.seam_colour), ("gap", NEAR_WIDTH, chosen.near_colour)):

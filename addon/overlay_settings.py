@@ -21,7 +21,7 @@ class AtlasRefineOverlay(bpy.types.PropertyGroup):
 
     __annotations__ = {
         "stretch": _switch("stretch", "Stretch", "Colour the faces by how much the UV map stretches or squeezes them"),
-        "seams": _switch("seams", "New Seams", "Draw the edges that the last refinement has cut"),
+        "seams": _switch("seams", "Seams", "Draw the edges that the last refinement has cut"),
         "gap": _switch(
             "gap",
             "Too Near",
@@ -39,8 +39,8 @@ def draw(layout, context):
     chosen = preferences.get()
     if switches.stretch and isinstance(chosen, bpy.types.AddonPreferences):  # else there is nothing to choose
         legend = layout.row(align=True)
-        legend.prop(chosen, "heat_low", text="1")
-        legend.prop(chosen, "heat_high", text=f"{chosen.heat_worst:g}")
+        legend.prop(chosen, "heat_low", text="None")
+        legend.prop(chosen, "heat_high", text=f"{chosen.heat_worst:g} x")
 
 
 def register():

@@ -6,8 +6,8 @@ import bpy
 from . import drawing, operators, overlay_settings, presets, tasks, trade_off
 from .bridge import versions
 from .core.density import density_lines
-from .core.summary import distortion, faces_after, figures, measured, new_seams, notes, percent, use, what_was_done
-from .core.words import counted, phase
+from .core.summary import distortion, faces_after, figures, in_parts, measured, new_seams, notes, percent, use, what_was_done
+from .core.words import ICON_PX, counted, lines_of, phase
 from .properties import copy_options, to_options
 
 MOST_NOTES = 6
@@ -18,6 +18,14 @@ def _column(layout):
     column.use_property_split = True
     column.use_property_decorate = False
     return column
+
+
+def _tell(layout, context, text, icon="NONE"):
+    """In as many lines as the sidebar's width asks for."""
+    width = context.region.width / context.preferences.system.ui_scale
+    for line in lines_of(text, width - (ICON_PX if icon != "NONE" else 0)):
+        layout.label(text=line, icon=icon)
+        icon = icon if icon == "NONE" else "BLANK1"
 
 
 def _refine_button(layout, settings, **more):
@@ -45,9 +53,9 @@ class _Main:
             row.scale_y = 1.4
             _refine_button(row, settings, icon="UV")
         drawing.draw_main(_column(self.layout), settings, context)
-        row = self.layout.row(align=True)
-        row.operator(operators.UV_OT_atlas_refine_measure.bl_idname, text="Measure")
-        row.operator(operators.UV_OT_atlas_refine_select_problems.bl_idname, text="Select Problems")
+        column = self.layout.column(align=True)
+        column.operator(operators.UV_OT_atlas_refine_measure.bl_idname, text="Measure")
+        column.operator(operators.UV_OT_atlas_refine_select_problems.bl_idname, text="Select Problems")
 
 
 class _TradeOff:
@@ -100,6 +108,14 @@ class _Overlay:
         overlay_settings.draw(self.layout, context)
 
 
+def _draw_density(layout, context, density):
+    for line in density_lines(density):
+        _tell(layout, context, line)
+    if density.size_to_take and not density.of_image:
+        button = layout.operator("wm.context_set_int", text=f"Set Texture Size to {density.size_to_take}")
+        button.data_path, button.value = "scene.atlas_refine.texture_size", density.size_to_take
+
+
 class _Result:
     bl_label = "Last Result"
 
@@ -107,41 +123,37 @@ class _Result:
     def poll(cls, context):
         return super().poll(context) and tasks.last_if_true() is not None
 
-    def draw(self, _context):
+    def draw(self, context):
         for done in tasks.last or ():
             box = self.layout.box().column(align=True)
             if done.result is None:
-                box.label(text=f"{done.title}: measured", icon="INFO")
-                box.label(text=measured(done.measures, done.is_free, done.reached_beyond))
-                for line in density_lines(done.density):
-                    box.label(text=line)
+                _tell(box, context, f"{done.title}: measured", icon="INFO")
+                _tell(box, context, measured(done.measures, done.is_free, done.reached_beyond))
+                _draw_density(box, context, done.density)
             else:
-                self._draw_result(box, done)
+                self._draw_result(box, context, done)
 
-    def _draw_result(self, layout, done):
+    def _draw_result(self, layout, context, done):
         before, after = done.result.before, done.result.after
-        layout.label(
-            text=f"{done.title}: {what_was_done(done.result, done.max_distortion)}",
-            icon="CHECKMARK" if done.result.bound_met else "ERROR",
-        )
+        icon = "CHECKMARK" if done.result.bound_met else "ERROR"
+        _tell(layout, context, f"{done.title}: {what_was_done(done.result, done.max_distortion)}", icon)
         now = percent(after.pe_fixed_aspect, down=True)
-        layout.label(text=f"{use(before, done.is_free, done.reached_beyond)} -> {now}")
+        lines = [f"{use(before, done.is_free, done.reached_beyond)} -> {now}"]
         for group in done.result.groups:
             held = percent(group.after.pe_fixed_aspect, down=True)
-            layout.label(text=f"{group.name or done.title}: {percent(group.before.pe_fixed_aspect)} -> {held}")
-        layout.label(text=distortion(after).capitalize())
-        for line in new_seams(done.result):
-            layout.label(text=line.capitalize())
-        for line in density_lines(done.density):
-            layout.label(text=line)
+            lines.append(f"{group.name or done.title}: {percent(group.before.pe_fixed_aspect)} -> {held}")
+        lines += [line.capitalize() for line in (*in_parts(distortion(after)), *new_seams(done.result))]
+        for line in lines:
+            _tell(layout, context, line)
+        _draw_density(layout, context, done.density)
         if done.result.cut is not None:
             faces = faces_after(done.result, done.face_count)
-            layout.label(text=f"Faces {done.face_count} -> {faces}, charts {before.chart_count} -> {after.chart_count}")
+            _tell(layout, context, f"Faces {done.face_count} -> {faces}, charts {before.chart_count} -> {after.chart_count}")
         told = [*done.notes, *notes(done.result)]
         for note in told[:MOST_NOTES]:
-            layout.label(text=note, icon="DOT")
+            _tell(layout, context, note, icon="DOT")
         if len(told) > MOST_NOTES:
-            layout.label(text=f"{counted(len(told) - MOST_NOTES, 'more note')} in the Info editor", icon="DOT")
+            _tell(layout, context, f"{counted(len(told) - MOST_NOTES, 'more note')} in the Info editor", icon="DOT")
 
 
 class _Details:

@@ -32,8 +32,8 @@ SEAMS = [
     ),
     (
         "RECTANGLES",
-        "Rectangles (Liu et al. 2019)",
-        "Charts are cut towards rectangles, which pack: adds seams, and bends the charts less",
+        "Rectangles",
+        "Charts are cut towards rectangles, which pack (Liu et al. 2019): adds seams, and bends the charts less",
         1,
     ),
 ]

@@ -17,6 +17,7 @@ from .bridge.texture import active_tile, find_texture
 from .changes import Watch
 from .core.atlas import stored_uvs
 from .core.cuts import plan_cut, seam_edges
+from .core.density import too_small
 from .core.request import NothingToDoError, prepare
 from .core.words import counted
 
@@ -46,6 +47,11 @@ class Done:
     left: tuple = ()  # (object's name, faces) of charts that were left as they are
     new_seams: tuple = ()  # (object's name, (S, 2) vertices) of edges that were cut
     prints: tuple = ()  # (object's name, UV map, fingerprint) of what it is true of
+
+    @property
+    def told(self):
+        """What a script should know, one line each; the panel tells of densities elsewhere."""
+        return tuple(filter(None, (*self.notes, too_small(self.density))))
 
 
 class Atlas:
@@ -163,7 +169,7 @@ class Run:
 
     writes = True
 
-    def __init__(self, context, options, beside_window=False, keywords=None):
+    def __init__(self, context, options, keywords=None, beside_window=False):
         """`keywords`: the engine's, besides those of the options."""
         self.problems = []  # (object's name, why nothing was done with it)
         self.atlases = self._read(context, options)

@@ -24,13 +24,20 @@ class Choice:
 SEARCH = {"trade_off": True}
 
 
+def picked(options, point):
+    """(options, keywords) of a run: None asks for what the limits choose, a number for that line of the trade-off."""
+    if point is None:
+        return options, {}
+    return options.for_trade_off(), {**SEARCH, "point": point}
+
+
 class Search(tasks.Run):
     """Finds what there is to choose from and writes nothing."""
 
     writes = False
 
     def __init__(self, context, options, beside_window):
-        super().__init__(context, options, beside_window, SEARCH)
+        super().__init__(context, options, SEARCH, beside_window)
 
     def _read(self, context, options):
         atlases = super()._read(context, options)

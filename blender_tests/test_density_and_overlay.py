@@ -48,6 +48,19 @@ class Density(unittest.TestCase):
         needed = int(lines[2].split(" px:")[0].split()[-1])
         self.assertAlmostEqual(needed / 1024, 1000.0 / found.after, delta=2e-3)
 
+    def test_a_script_is_told_that_the_texture_is_too_small(self):
+        add_mesh()
+        options = {"density": "VALUE", "texel_density": 1000.0}
+        told = messages(bpy.ops.uv.atlas_refine, texture_size=1024, **options)
+        (done,) = module("tasks").last
+        size = done.density.size_to_take
+        self.assertIn(f"1000 px/m need a texture of {done.density.needed_px} px and this one has 1024: take {size}", told)
+        fresh_scene()
+        add_mesh()
+        self.assertNotIn("px/m", messages(bpy.ops.uv.atlas_refine, texture_size=size, **options))
+        (done,) = module("tasks").last
+        self.assertGreaterEqual(done.density.after, 1000.0)
+
     def test_measure_tells_it_and_changes_nothing(self):
         obj = add_mesh()
         before = snapshot(obj)
@@ -99,6 +112,30 @@ class Overlay(unittest.TestCase):
         obj.data.update()
         bpy.context.view_layer.update()
         self.assertEqual(len(module("tasks").new_seams(obj.name)), 0)
+
+    def shown(self, obj):
+        bpy.context.view_layer.update()
+        return module("bridge.mesh").read_shown_positions(obj, bpy.context.view_layer.depsgraph)
+
+    def test_it_follows_modifiers_and_shape_keys_that_keep_the_faces(self):
+        obj = add_mesh()
+        plain = self.shown(obj)
+        self.assertTrue(np.array_equal(plain, [vertex.co for vertex in obj.data.vertices]))
+        obj.modifiers.new("Displace", "DISPLACE").strength = 2.0
+        moved = self.shown(obj)
+        self.assertEqual(moved.shape, plain.shape)
+        self.assertGreater(np.abs(moved - plain).max(), 0.5)
+        obj.modifiers.clear()
+        obj.shape_key_add(name="Basis")
+        key = obj.shape_key_add(name="Up")
+        key.data[0].co.z += 3.0
+        key.value = 1.0
+        self.assertAlmostEqual(float(self.shown(obj)[0, 2] - plain[0, 2]), 3.0, delta=1e-5)
+
+    def test_it_stays_on_the_mesh_where_modifiers_make_other_faces(self):
+        obj = add_mesh()
+        obj.modifiers.new("Subdivision", "SUBSURF").levels = 1
+        self.assertIsNone(self.shown(obj))
 
     def test_keep_best_has_nothing_to_do_while_nothing_runs(self):
         add_mesh()

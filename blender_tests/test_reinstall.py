@@ -65,6 +65,23 @@ class Reinstall(unittest.TestCase):
         add_mesh()
         self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
 
+    def test_nothing_has_to_be_unticked_for_the_new_version(self):
+        self.make_other()
+        look = module("reinstalled").load_what_is_installed
+        self.assertEqual(look(), module("reinstalled").PERIOD_SECONDS)
+        self.addCleanup(self.put_back)
+        tasks = module("tasks")
+        install(self.other)
+        if LEGACY:  # else Blender has loaded it. Without a window there are no timers, whose work this is
+            tasks.running = "a refinement"
+            self.assertIsNotNone(look())
+            tasks.running = None
+            look()
+        self.assertEqual(module("core.words").phase("squeeze"), "pressing")
+        self.assertTrue(bpy.app.timers.is_registered(module("reinstalled").load_what_is_installed))
+        add_mesh()
+        self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
+
     def test_the_old_version_goes_on_while_the_new_one_is_written(self):
         self.make_other()
         obj = add_mesh(shapes.loose())

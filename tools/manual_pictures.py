@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 OUT = ROOT / "docs" / "manual"
 #: In the window of 1600 x 900 pixels: width, height, left, top.
 UV_MAP = "736x736+294+66"
-PANEL = "196x800+1100+54"
+PANEL = "196x754+1100+54"
 VIEW = "720x456+300+216"
 #: What becomes of which screenshots, beside each other, and how wide each is in the end.
 PICTURES = {

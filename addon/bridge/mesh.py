@@ -63,6 +63,19 @@ def read_triangles(obj):
     return loops[integers(mesh.polygons, "loop_total")[faces] > 3]
 
 
+def read_shown_positions(obj, depsgraph):
+    """(V, 3) float32: where modifiers and shape keys move the vertices; None in edit mode, and where they make other faces."""
+    if depsgraph is None or obj.mode == "EDIT":
+        return None
+    shown, mesh = obj.evaluated_get(depsgraph).data, obj.data
+    counts = [(len(m.vertices), len(m.polygons), len(m.loops)) for m in (shown, mesh)]
+    if counts[0] != counts[1]:
+        return None
+    if not np.array_equal(integers(shown.loops, "vertex_index"), integers(mesh.loops, "vertex_index")):
+        return None
+    return _positions(shown)
+
+
 def read_material_indices(obj):
     if obj.mode == "EDIT":
         return np.array([face.material_index for face in bmesh.from_edit_mesh(obj.data).faces], dtype=np.int32)
@@ -127,15 +140,19 @@ def integers(elements, attribute, each=1):
 
 
 def _read_mesh(mesh, uv_map):
-    positions = np.empty(3 * len(mesh.vertices), dtype=np.float32)
-    mesh.vertices.foreach_get("co", positions)
     corner_vertices = integers(mesh.loops, "vertex_index")
     starts, sizes = integers(mesh.polygons, "loop_start"), integers(mesh.polygons, "loop_total")
     offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
     if not np.array_equal(offsets[:-1], starts) or offsets[-1] != len(mesh.loops):
         raise MeshError("the corners of the mesh's faces are not in order: run Mesh.validate() on it")
     uvs = versions.read_uvs(mesh.uv_layers[uv_map], len(mesh.loops))
-    return AtlasArrays(positions.reshape(-1, 3), offsets, corner_vertices, uvs)
+    return AtlasArrays(_positions(mesh), offsets, corner_vertices, uvs)
+
+
+def _positions(mesh):
+    positions = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", positions)
+    return positions.reshape(-1, 3)
 
 
 def read_edit_mesh(mesh, uv_map):

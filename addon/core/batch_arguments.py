@@ -7,6 +7,8 @@ import os
 import pathlib
 from dataclasses import dataclass, field
 
+from .file_kinds import IMPORTERS, is_imported, result_name
+
 PROGRAM = "atlas_refine"
 USAGE = 2
 
@@ -36,6 +38,7 @@ class Arguments:
     selected: bool = False
     again: bool = False
     list_presets: bool = False
+    point: int | None = None  # of the trade-off; None: what the limits ask for
 
     @property
     def chosen(self):
@@ -54,7 +57,8 @@ def read_arguments(argv, kinds):
     if bool(parsed.output) == parsed.in_place:
         raise UsageError("one of -o DIR and --in-place says where results go")
     items = _share(_items(_expand(parsed.files), parsed.output), parsed.shard)
-    return Arguments(items, parsed.preset, options, tuple(parsed.objects), parsed.selected, parsed.again)
+    chosen = {"objects": tuple(parsed.objects), "selected": parsed.selected, "point": parsed.point}
+    return Arguments(items, parsed.preset, options, again=parsed.again, **chosen)
 
 
 class _Parser(argparse.ArgumentParser):
@@ -64,9 +68,13 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser(kinds):
     # No abbreviations: one that is plain today would be ambiguous once there is another option.
-    parser = _Parser(prog=PROGRAM, description="Refines the UV maps of .blend files.", allow_abbrev=False)
-    parser.add_argument("files", nargs="*", metavar="FILE", help=".blend files, or patterns as 'scenes/**/*.blend'")
-    parser.add_argument("-o", "--output", metavar="DIR", help="folder for the results, by the files' names; made where missing")
+    parser = _Parser(
+        prog=PROGRAM, description=f"Refines the UV maps of .blend, {', '.join(IMPORTERS)} files.", allow_abbrev=False
+    )
+    parser.add_argument("files", nargs="*", metavar="FILE", help="files, or patterns as 'scenes/**/*.blend'")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", help="folder for the results, .blend files by the files' names; made where missing"
+    )
     parser.add_argument("--in-place", action="store_true", help="the files themselves become the results")
     parser.add_argument("--preset", default="", metavar="NAME", help="options of that preset, unless they are given as well")
     parser.add_argument("--list-presets", action="store_true", help="print the names of the presets there are, and end")
@@ -81,6 +89,9 @@ def _parser(kinds):
     )
     parser.add_argument("--selected", action="store_true", help="only objects that are selected in the file")
     parser.add_argument("--shard", type=_shard, default=(1, 1), metavar="I/N", help="only each N-th file, from the I-th on")
+    parser.add_argument(
+        "--point", type=_point, metavar="K", help="with needed seams: line K of the trade-off, from 0 on, whatever the limits"
+    )
     parser.add_argument("--again", action="store_true", help="refine files anew that are done already")
     group = parser.add_argument_group("options of a refinement")
     for kind in kinds.values():
@@ -114,6 +125,12 @@ def _shard(text):
     return int(first), int(count)
 
 
+def _point(text):
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"a whole number from 0 on, not {text!r}")
+    return int(text)
+
+
 def _expand(patterns):
     """Files in a fixed order, each once. A name without a match stays, to be reported when its turn comes."""
     found = []
@@ -132,10 +149,10 @@ def _expand(patterns):
 
 def _items(paths, output):
     if not output:
-        return [Item(pathlib.Path(path), pathlib.Path(path)) for path in paths]
+        return [Item(path, path) for path in map(_no_import, paths)]
     folder = os.path.abspath(output)
     # What lies in the folder is an earlier run's, where a pattern reaches there.
-    items = [Item(pathlib.Path(path), pathlib.Path(folder, os.path.basename(path))) for path in paths if not _is_in(path, folder)]
+    items = [Item(path, pathlib.Path(folder, result_name(path))) for path in map(pathlib.Path, paths) if not _is_in(path, folder)]
     if not items:
         raise UsageError(f"every file lies in the output folder {output}; --in-place is for that")
     by_output = {}
@@ -144,6 +161,14 @@ def _items(paths, output):
         if other is not item:
             raise UsageError(f"{other.source} and {item.source} would both become {item.output}")
     return items
+
+
+def _no_import(path):
+    if is_imported(path):
+        raise UsageError(
+            f"{path}: --in-place is for .blend files; the result of this one is such a file, too: name a folder with -o"
+        )
+    return pathlib.Path(path)
 
 
 def _is_in(path, folder):

@@ -22,6 +22,7 @@ _OF_A_RESULT = (
     "ended",
     "triangulations",
     "groups",
+    "cuts",
     "repairs",
     "fallbacks",
     "warnings",
@@ -89,11 +90,13 @@ def replace(partial, path):
     os.replace(partial, path)
 
 
-def sha256(path):
+def sha256(*paths):
+    """Of what the files hold, one after the other."""
     digest = hashlib.sha256()
-    with open(path, "rb") as file:
-        while block := file.read(1 << 20):
-            digest.update(block)
+    for path in paths:
+        with open(path, "rb") as file:
+            while block := file.read(1 << 20):
+                digest.update(block)
     return digest.hexdigest()
 
 

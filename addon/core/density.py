@@ -19,10 +19,24 @@ class Density:
     wanted: float = 0.0  # 0: none
     is_free: bool = False  # the UVs have the wanted density, whatever part of the texture, or beyond it, that takes
     box_px: tuple = (0.0, 0.0)  # that they take
+    of_image: bool = False  # the size is an image's
 
     @property
     def now(self):
         return self.before if self.after is None else self.after
+
+    @property
+    def needed_px(self):
+        """Of the longer side of a texture in which the charts have the wanted density; 0 where none is asked for."""
+        if self.wanted == 0 or self.now == 0:
+            return 0
+        in_place = self.is_free and self.after is not None
+        return math.ceil((max(self.box_px) if in_place else max(self.size) * self.wanted / self.now) - 1e-3)
+
+    @property
+    def size_to_take(self):
+        """The power of two that holds that; 0 where the texture does."""
+        return 0 if self.needed_px <= max(self.size) else 2 ** math.ceil(math.log2(self.needed_px))
 
 
 def surface_area(positions, face_offsets, corner_vertices):
@@ -47,23 +61,21 @@ def density_lines(density):
     change = "" if density.after is None else f" -> {_short(density.after)}"
     yield f"Density {_short(density.before)}{change} px/m"
     yield f"of a texture of {density.size[0]} x {density.size[1]}"
-    if density.wanted == 0 or density.now == 0:
-        return
-    if density.is_free and density.after is not None:
-        longest = max(density.box_px)
-    else:
-        longest = max(density.size) * density.wanted / density.now
-    longest = math.ceil(longest - 1e-3)
-    enough = "it has them" if longest <= max(density.size) else f"take {_power_of_two(longest)}"
-    yield f"{_short(density.wanted)} px/m need {longest} px: {enough}"
+    if density.needed_px > 0:
+        enough = f"take {density.size_to_take}" if density.size_to_take else "it has them"
+        yield f"{_short(density.wanted)} px/m need {density.needed_px} px: {enough}"
+
+
+def too_small(density):
+    """What a script is told where the texture does not hold the wanted density; empty where it does."""
+    if not density.size_to_take:
+        return ""
+    needed = f"{_short(density.wanted)} px/m need a texture of {density.needed_px} px"
+    return f"{needed} and this one has {max(density.size)}: take {density.size_to_take}"
 
 
 def _short(value):
     return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
-
-
-def _power_of_two(pixels):
-    return 2 ** math.ceil(math.log2(pixels))
 
 
 def _twice_areas(corners, face_offsets):

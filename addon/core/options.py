@@ -95,7 +95,7 @@ class Options:
         """The shape of the box, also for atlas_refine.measure()."""
         if self.aspect == "FREE":
             return {"box_aspect": 0.0, "in_texture": False}
-        ratio = texture.width / texture.height if texture and self.aspect == "TEXTURE" else 1.0
+        ratio = texture.width / texture.height if self.takes_image(texture) else 1.0
         return {"box_aspect": min(max(ratio, 0.01), 100.0), "in_texture": True}
 
     def pixels(self, texture=None):
@@ -104,7 +104,11 @@ class Options:
 
     def texture_pixels(self, texture=None):
         """(width, height)"""
-        return (texture.width, texture.height) if texture and self.aspect == "TEXTURE" else (self.texture_size,) * 2
+        return (texture.width, texture.height) if self.takes_image(texture) else (self.texture_size,) * 2
+
+    def takes_image(self, texture):
+        """The texture's size is an image's."""
+        return texture is not None and self.aspect == "TEXTURE"
 
     @property
     def wanted_density(self):

@@ -24,6 +24,17 @@ class Look:
 
 
 @dataclass(frozen=True)
+class Source:
+    """A mesh with its UV map, to be drawn."""
+
+    atlas: object  # AtlasArrays
+    larger: np.ndarray  # (T, 3) corners: the triangles of faces of more than three
+    scale: float  # of the object in the world
+    new_seams: np.ndarray  # (S, 2) vertices
+    shown: np.ndarray = None  # (V, 3) float32: where modifiers and shape keys move the vertices; None: nowhere else
+
+
+@dataclass(frozen=True)
 class Picture:
     """Of one mesh; `where` is "uv" or "space"."""
 
@@ -33,19 +44,18 @@ class Picture:
 
 
 def picture_of(engine, sources, look):
-    """A Picture of each source, (atlas, triangles of larger faces, scale in the world, new seams); stretch is that of all of them
-    in one texture."""
-    near = _near(engine, [source[0] for source in sources], look) if "gap" in look.layers else [()] * len(sources)
+    """A Picture of each Source; stretch is that of all of them in one texture."""
+    near = _near(engine, [source.atlas for source in sources], look) if "gap" in look.layers else [()] * len(sources)
     colours, triangles = _heat(sources, look) if "stretch" in look.layers else ([None] * len(sources),) * 2
     out = []
-    for k, (atlas, _, _, seams) in enumerate(sources):
+    for k, source in enumerate(sources):
         picture = Picture(colours[k])
         if "stretch" in look.layers:
-            picture.faces.update(_places(atlas, triangles[k].ravel()))
+            picture.faces.update(_places(source, triangles[k].ravel()))
         if "seams" in look.layers:
-            picture.lines["seams"] = _edges(atlas, borders.edge_corners(atlas, seams))
+            picture.lines["seams"] = _edges(source, borders.edge_corners(source.atlas, source.new_seams))
         if "gap" in look.layers:
-            picture.lines["gap"] = _edges(atlas, near[k])
+            picture.lines["gap"] = _edges(source, near[k])
         out.append(picture)
     return out
 
@@ -54,16 +64,18 @@ def _heat(sources, look):
     """(colours of each source's corners of triangles, those triangles)."""
     aspect = np.array([look.texture_size[0] / look.texture_size[1], 1.0])
     positions, uvs, triangles, faces = [], [], [], []
-    for atlas, larger, scale, _ in sources:
-        corners, of_faces = heat.all_triangles(atlas.face_offsets, larger)
-        positions.append(scale * atlas.positions.astype(np.float64)[atlas.corner_vertices[corners]])
+    for source in sources:
+        atlas = source.atlas
+        corners, of_faces = heat.all_triangles(atlas.face_offsets, source.larger)
+        positions.append(source.scale * atlas.positions.astype(np.float64)[atlas.corner_vertices[corners]])
         uvs.append(atlas.corner_uvs.astype(np.float64)[corners] * aspect)
         triangles.append(corners)
         faces.append(of_faces)
     values = heat.stretch(np.concatenate(positions), np.concatenate(uvs))
     colours, first = [], 0
-    for (atlas, *_), corners, of_faces in zip(sources, triangles, faces, strict=True):
-        own = heat.worst_of_faces(values[first : first + len(corners)], of_faces, len(atlas.face_offsets) - 1)[of_faces]
+    for source, corners, of_faces in zip(sources, triangles, faces, strict=True):
+        face_count = len(source.atlas.face_offsets) - 1
+        own = heat.worst_of_faces(values[first : first + len(corners)], of_faces, face_count)[of_faces]
         colours.append(np.repeat(heat.colours(own, look.low, look.high, look.worst, look.opacity), 3, axis=0))
         first += len(corners)
     return colours, triangles
@@ -94,13 +106,14 @@ def _near(engine, atlases, look):
     return [own[flags] for own, flags in zip(corners, parts, strict=True)]
 
 
-def _edges(atlas, corners):
-    both = np.column_stack([corners, borders.following_corners(atlas.face_offsets)[corners]]).astype(np.int64)
-    return _places(atlas, both.ravel())
+def _edges(source, corners):
+    both = np.column_stack([corners, borders.following_corners(source.atlas.face_offsets)[corners]]).astype(np.int64)
+    return _places(source, both.ravel())
 
 
-def _places(atlas, corners):
+def _places(source, corners):
     """Where corners lie, in both editors."""
-    uvs = atlas.corner_uvs[corners]
+    uvs = source.atlas.corner_uvs[corners]
     flat = np.column_stack([uvs, np.zeros(len(corners), dtype=np.float32)])
-    return {"uv": np.ascontiguousarray(flat, dtype=np.float32), "space": atlas.positions[atlas.corner_vertices[corners]]}
+    positions = source.atlas.positions if source.shown is None else source.shown
+    return {"uv": np.ascontiguousarray(flat, dtype=np.float32), "space": positions[source.atlas.corner_vertices[corners]]}

@@ -51,6 +51,7 @@ class Request:
             pixels_per_metre(uv_area(offsets, uvs), size, area, metres),
             wanted=options.wanted_density,
             is_free="uv_density" in self.arguments,
+            of_image=options.takes_image(texture),
         )
         if result is None:
             return density

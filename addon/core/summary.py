@@ -33,6 +33,11 @@ def distortion(measures):
     return f"distortion {word} (worst stretch {measures.stretch_max:.1f})"
 
 
+def in_parts(text):
+    """What is in brackets at the end by itself, for a narrow sidebar."""
+    return text.removesuffix(")").split(" (")
+
+
 def new_seams(result):
     """In parts that a narrow sidebar has room for, one a line."""
     if not result.added_seams:

@@ -2,7 +2,11 @@
 """The engine's messages as an artist reads them: counts, not the numbers of charts."""
 
 import re
+import textwrap
 
+#: Of the sidebar, at a scale of 1: its letters in the mean, what its margins and tabs take, an icon.
+_LETTER_PX, _MARGINS_PX, ICON_PX = 5.9, 48, 20
+_LEAST_LETTERS = 16
 _CHARTS = re.compile(r"\bcharts (\d+(?:, \d+)*)\b(?: and (\d+)\b)?")
 _CHART = re.compile(r"(?:\bface (\d+) of )?\bchart \d+\b")
 _SYMBOLS = {"packing efficiency": "texture use", "E_d": "distortion"}
@@ -42,3 +46,8 @@ def phase(stage):
         "certify": "checking",
         "compare": "comparing",
     }.get(stage, stage)
+
+
+def lines_of(text, width_px):
+    """A text broken at its spaces into lines that a region of that width, in pixels at a scale of 1, has room for."""
+    return textwrap.wrap(text, max(_LEAST_LETTERS, int((width_px - _MARGINS_PX) / _LETTER_PX)))

@@ -264,15 +264,26 @@ Solution cut_solution(const CutAtlas& atlas, const ReduceResult& result, const G
   return out;
 }
 
-/// Borders that touch at a vertex (a pinch) may stay so where charts are but moved; no barrier can start from contact.
-bool part_pinches(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts) {
+/// Borders that touch at a vertex (a pinch) may stay so where charts are but moved; no barrier can start from contact. The parted
+/// charts get the places of those that they were. True where there are any.
+bool part_pinches(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts, PlacedCharts& placed) {
   bool parted = false;
   for (std::size_t c = 0; c < charts.size(); ++c) {
     if (!bends(freedom, c) || certify_charts({charts[c]}).valid()) continue;
-    charts[c] = made_valid(run, charts[c]);
+    Chart mended = made_valid(run, charts[c]);
+    std::vector<Vec2> in_place = moved_likewise(mended.uvs, charts[c].uvs, placed.charts[c].uvs);
+    charts[c] = placed.charts[c] = std::move(mended);
+    placed.charts[c].uvs = std::move(in_place);
     parted = true;
   }
   return parted;
+}
+
+/// Charts that were changed where they lie are still the gap apart, and in their frame if they have one.
+bool still_apart(const Refinement& run, const Placing& placing, const Freedoms& freedom) {
+  const PlacedCharts& placed = placing.placed;
+  return !placed.has_frame() && gap_kept(placed, freedom, placing.gap, run.options.box_aspect) &&
+         certify_charts(placed.charts, {}, freedom).valid();
 }
 
 /// Slits that would close where they are stored are parted: nothing bends these charts any more.
@@ -328,8 +339,8 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
     return out;
   }
 
-  const bool parted = part_pinches(run, freedom, pieces);
-  if (parted) placing = place_with(run, pieces, freedom, good_enough, gaps);
+  const bool parted = part_pinches(run, freedom, pieces, placed);
+  if (parted && !still_apart(run, placing, freedom)) placing = place_with(run, pieces, freedom, good_enough, gaps);
   gaps = gaps_to_squeeze_with(run, pieces, freedom, placing, gaps);
   // A wider gap than is to be kept would only be more to be squeezed.
   if (rather_moves(run, pieces.size()) && placing.gap.value != gaps.front().value)

@@ -29,4 +29,23 @@ def test_what_is_not_valid_or_misses_the_bound_does_not_count():
 
 
 def test_nothing_measured_is_no_table():
-    assert in_blender.summary([{"file": "x", "why not": "crashed"}], 0.8) == ["no file has results"]
+    assert in_blender.summary([{"file": "x", "why not": "crashed"}], 0.8) == ["no file has results of both"]
+
+
+def test_what_is_not_valid_is_marked():
+    bad = {**row(way(0.8, 1.1)), "pack islands": way(0.6, 1.2, valid=False)}
+    assert "0.600*" in in_blender.line(bad)
+    assert in_blender.summary([bad, row(way(0.8, 1.1))], 0.8)[1] == "pack islands valid: 1 of 2"
+
+
+def test_each_way_is_measured_by_itself(monkeypatch):
+    def run_way(_blender, _path, asked, *_):
+        crashed = {"why not": "nothing after 1800 s"}
+        return crashed if asked == "pack islands" else {"triangles": 200, "input": way(0.4, 1.2), asked: way(0.8, 1.1)}
+
+    monkeypatch.setattr(in_blender, "run_way", run_way)
+    found = in_blender.measured(None, None, 0.8, {})
+    assert found["atlas refine"]["use"] == 0.8
+    assert found["why not"] == "pack islands: nothing after 1800 s"
+    assert in_blender.holds(found, 0.8)
+    assert in_blender.line({"file": "x", **found}).endswith("1800 s")

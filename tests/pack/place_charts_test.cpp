@@ -8,6 +8,7 @@
 
 #include "atlas_refine/error.h"
 #include "charts.h"
+#include "pack/pack_charts.h"
 #include "shapes.h"
 
 namespace atlas_refine {
@@ -115,6 +116,17 @@ TEST(PlaceCharts, RefusesANeedleByItsFace) {
                                              needle.triangle_faces.begin()];
     EXPECT_EQ(std::count(named.begin(), named.end(), needle.triangles[5][0]), 1);
   }
+}
+
+TEST(PlaceChartsAgain, WhatChangedIsMovedLikewise) {
+  const Placement motion{0.6, -0.8, Vec2(3, -7)};
+  const std::vector<Vec2> from = {{1, 2}, {1.1, 2}, {4, 6}, {0, 3}};
+  std::vector<Vec2> to, changed = from, wanted;
+  for (const Vec2& uv : from) to.push_back(motion.apply(uv));
+  changed[1] += Vec2(0.01, 0.02);
+  for (const Vec2& uv : changed) wanted.push_back(motion.apply(uv));
+  const std::vector<Vec2> moved = moved_likewise(changed, from, to);
+  for (std::size_t v = 0; v < wanted.size(); ++v) EXPECT_LT((moved[v] - wanted[v]).norm(), 1e-14);
 }
 
 }  // namespace

@@ -50,6 +50,22 @@ def test_in_place(files):
     assert item.source == item.output
 
 
+def test_results_of_other_kinds_are_blend_files(tmp_path):
+    items = read(tmp_path / "b.OBJ", tmp_path / "a.v2.glb", "-o", tmp_path / "out").items
+    assert [item.output.name for item in items] == ["a.v2.blend", "b.blend"]
+    with pytest.raises(UsageError, match="name a folder with -o"):
+        read(tmp_path / "b.obj", "--in-place")
+    with pytest.raises(UsageError, match="would both become"):
+        read(tmp_path / "a.blend", tmp_path / "a.fbx", "-o", tmp_path / "out")
+
+
+def test_a_line_of_the_trade_off():
+    assert read("x.blend", "--in-place").point is None
+    assert read("x.blend", "--in-place", "--point", "0").point == 0
+    with pytest.raises(UsageError, match="from 0 on"):
+        read("x.blend", "--in-place", "--point=-1")
+
+
 def test_shards_share_the_files(files):
     shares = [sources(read(files / "**/*.blend", "--in-place", "--shard", f"{at}/3")) for at in (1, 2, 3)]
     assert sorted(name for share in shares for name in share) == ["a.blend", "b.blend", "c.blend", "d.blend"]

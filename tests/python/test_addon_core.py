@@ -7,8 +7,8 @@ import shapes
 from core.atlas import AtlasArrays, stored_uvs
 from core.manifold import faces_at_fault
 from core.options import Options, Texture
-from core.summary import figures, growth, headline, notes, percent, trade_off_lines, what_was_done
-from core.words import plain
+from core.summary import figures, growth, headline, in_parts, notes, percent, trade_off_lines, what_was_done
+from core.words import lines_of, plain
 
 
 def test_options_are_the_engines_keywords():
@@ -99,6 +99,15 @@ def test_arrays_are_compared_bit_for_bit():
     assert atlas.same_as(AtlasArrays(positions.copy(), offsets.copy(), corners.copy(), uvs.copy()))
     assert not atlas.same_as(AtlasArrays(positions, offsets, corners, np.nextafter(uvs, 9.0)))
     assert not atlas.same_as(AtlasArrays(positions[:-1], offsets, corners, uvs))
+
+
+def test_lines_fit_a_narrow_sidebar():
+    text = "Distortion low (worst stretch 1.3)"
+    assert lines_of(text, 196) == ["Distortion low (worst", "stretch 1.3)"]
+    assert lines_of(text, 400) == [text]
+    assert lines_of("short", 10) == ["short"]
+    assert in_parts(text) == ["Distortion low", "worst stretch 1.3"]
+    assert in_parts("No chart takes part") == ["No chart takes part"]
 
 
 def test_the_words_of_a_result():

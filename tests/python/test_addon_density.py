@@ -6,7 +6,7 @@ import atlas_refine
 import numpy as np
 import pytest
 import shapes
-from core.density import Density, density_lines, surface_area, uv_area
+from core.density import Density, density_lines, surface_area, too_small, uv_area
 from core.options import Options, Texture
 from core.request import prepare
 from test_addon_request import faces, make_part, run
@@ -56,7 +56,10 @@ def test_what_is_told():
     measured = Density((1024, 512), 100.0)
     assert list(density_lines(measured)) == ["Density 100 px/m", "of a texture of 1024 x 512"]
     assert list(density_lines(replace(measured, wanted=250.0)))[2] == "250 px/m need 2560 px: take 4096"
+    assert too_small(replace(measured, wanted=250.0)) == "250 px/m need a texture of 2560 px and this one has 1024: take 4096"
+    assert too_small(measured) == ""
     refined = Density((1024, 1024), 100.0, after=128.0, wanted=100.0)
+    assert (refined.size_to_take, too_small(refined)) == (0, "")
     assert list(density_lines(refined))[::2] == ["Density 100 -> 128 px/m", "100 px/m need 800 px: it has them"]
     free = Density((1024, 1024), 100.0, after=300.0, wanted=300.0, is_free=True, box_px=(1500.0, 900.0))
     assert list(density_lines(free))[2] == "300 px/m need 1500 px: take 2048"

@@ -6,7 +6,7 @@ import pytest
 import shapes
 from core import borders, heat
 from core.atlas import AtlasArrays
-from core.overlay import Look, picture_of
+from core.overlay import Look, Source, picture_of
 
 NONE = np.zeros((0, 2), dtype=int)
 ALL = ("stretch", "seams", "gap")
@@ -22,9 +22,9 @@ def triangles_of_quads(atlas):
     return np.concatenate([first[:, None] + [0, 1, 2], first[:, None] + [0, 2, 3]]).astype(np.int32)
 
 
-def source(arrays, scale=1.0, seams=NONE):
+def source(arrays, scale=1.0, seams=NONE, shown=None):
     atlas = make_atlas(arrays)
-    return atlas, triangles_of_quads(atlas), scale, seams
+    return Source(atlas, triangles_of_quads(atlas), scale, seams, shown)
 
 
 def look(layers=ALL, **more):
@@ -49,15 +49,15 @@ def squares(*corners):
 def near_share(*sources, **more):
     """The part of border edges that are drawn as too near."""
     pictures = picture_of(atlas_refine, list(sources), look(("gap",), **more))
-    edges = sum(len(borders.border_corners(source[0])) for source in sources)
+    edges = sum(len(borders.border_corners(source.atlas)) for source in sources)
     return sum(len(picture.lines["gap"]["uv"]) for picture in pictures) / 2 / edges
 
 
 def test_stretch_is_the_engines():
     long, square = shapes.grid(4, 4), shapes.grid(3, 3, origin=(20.0, 0.0))
     arrays = shapes.join((long[0], long[1], long[2] * [3.0, 1.0]), square)
-    atlas, larger, _, _ = source(arrays)
-    corners, _ = heat.all_triangles(atlas.face_offsets, larger)
+    one = source(arrays)
+    corners, _ = heat.all_triangles(one.atlas.face_offsets, one.larger)
     values = heat.stretch(arrays[0][arrays[2][corners]], arrays[3][corners])
     assert values.max() == pytest.approx(atlas_refine.measure(*arrays).stretch_max)
     assert 1.0 <= values.min() < values.max()
@@ -86,6 +86,15 @@ def test_a_face_is_coloured_as_a_whole():
     assert {place.shape for place in picture.faces.values()} == {(3 * count, 3)}
     halves = picture.colours.reshape(2, count // 2, 3, 4)
     assert np.array_equal(halves[0], halves[1])
+
+
+def test_what_moves_the_vertices_moves_the_drawing_and_not_the_colours():
+    plain = source(shapes.loose())
+    bent = source(shapes.loose(), shown=plain.atlas.positions + np.float32([0.0, 0.0, 1.0]))
+    (before,), (after,) = (picture_of(atlas_refine, [one], look()) for one in (plain, bent))
+    assert np.array_equal(before.colours, after.colours)
+    assert np.array_equal(before.faces["uv"], after.faces["uv"])
+    assert np.array_equal(before.faces["space"] + np.float32([0.0, 0.0, 1.0]), after.faces["space"])
 
 
 def test_several_objects_are_stretched_as_one():

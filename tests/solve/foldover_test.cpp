@@ -59,6 +59,24 @@ TEST(Foldover, ProjectedHessianIsPositiveSemidefinite) {
   }
 }
 
+/// Of the Jacobian: that of its triangle's second and third vertex where these are the unit vectors.
+Eigen::Matrix4d jacobian_hessian(const Mat2& j, double epsilon, bool project) {
+  return testing::full_hessian(foldover_derivatives(Mat2::Identity(), Vec2::Zero(), j.col(0), j.col(1), epsilon, project))
+      .bottomRightCorner<4, 4>();
+}
+
+TEST(Foldover, ProjectionLiftsNegativeEigenvaluesAndNothingElse) {
+  Rng rng(5);
+  std::vector<Mat2> samples = {Mat2::Identity(), Mat2::Zero(), Vec2(1, -1).asDiagonal(), Vec2(3, 0).asDiagonal()};
+  for (int k = 0; k < 60; ++k) samples.push_back(Mat2::NullaryExpr([&] { return rng.uniform(-2, 2); }));
+  for (const Mat2& j : samples) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(jacobian_hessian(j, 0.2, false));
+    const Eigen::Matrix4d wanted =
+        eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+    EXPECT_LT((jacobian_hessian(j, 0.2, true) - wanted).norm(), 1e-12 * wanted.norm());
+  }
+}
+
 TEST(Foldover, IsOneForRotationsAndGrowsWithDistortion) {
   Mat2 rotation;
   rotation << 0.6, -0.8, 0.8, 0.6;
@@ -82,6 +100,18 @@ TEST(Foldover, EpsilonFallsWhileFlipsRemainAndThenVanishes) {
     epsilon = next;
   }
   EXPECT_LE(next_epsilon(0.1, 0.5, 1, 0.5), 1e-9);
+}
+
+TEST(Foldover, WhatGrowsAsEpsilonFallsStaysFolded) {
+  const auto steps = [](double first, double power, int count) {
+    std::vector<FoldoverLevel> out;
+    for (int k = 0; k < count; ++k) out.push_back({first * std::pow(0.9, -power * k), std::pow(0.9, k)});
+    return out;
+  };
+  EXPECT_TRUE(stay_folded(steps(100, 1, 11)));
+  EXPECT_FALSE(stay_folded(steps(100, 1, 10)));    // too soon to tell
+  EXPECT_FALSE(stay_folded(steps(100, 0.5, 40)));  // it slows down: they unfold
+  EXPECT_FALSE(stay_folded(steps(0.5, 1, 11)));    // a small part of all
 }
 
 }  // namespace

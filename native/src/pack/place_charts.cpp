@@ -179,4 +179,14 @@ std::optional<PlacedCharts> place_around(const std::vector<Chart>& charts, const
   return out;
 }
 
+std::vector<Vec2> moved_likewise(std::vector<Vec2> uvs, const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
+  const auto nearer = [&](const Vec2& a, const Vec2& b) { return (a - from[0]).squaredNorm() < (b - from[0]).squaredNorm(); };
+  const auto farthest = std::max_element(from.begin(), from.end(), nearer) - from.begin();
+  const Vec2 before = from[farthest] - from[0], after = to[farthest] - to[0];
+  const Vec2 turn = Vec2(before.dot(after), before.x() * after.y() - before.y() * after.x()).normalized();
+  const Placement motion{turn.x(), turn.y(), Vec2::Zero()};
+  for (Vec2& uv : uvs) uv = to[0] + motion.apply(uv - from[0]);
+  return uvs;
+}
+
 }  // namespace atlas_refine

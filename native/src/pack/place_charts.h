@@ -40,4 +40,7 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
 std::optional<PlacedCharts> place_around(const std::vector<Chart>& charts, const Freedoms& freedom, const PlaceOptions& options,
                                          Monitor& monitor);
 
+/// UVs under the rigid motion that took a chart's UVs `from` where they lay `to` where they lie.
+std::vector<Vec2> moved_likewise(std::vector<Vec2> uvs, const std::vector<Vec2>& from, const std::vector<Vec2>& to);
+
 }  // namespace atlas_refine

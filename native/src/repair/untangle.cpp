@@ -130,6 +130,7 @@ std::optional<std::vector<Vec2>> untangle(const Tangle& tangle, std::vector<Vec2
   if (unknowns.masses.empty()) return std::nullopt;
   std::vector<TriangleDerivatives> buffer(tangle.triangles.size());
   double epsilon = tangle.stays_positive ? kLeastEpsilon : 1;
+  std::vector<FoldoverLevel> history;
   for (int k = 0; k < kMostIterations; ++k) {
     monitor.check();
     const double before = assemble(tangle, factor, uvs, epsilon, threads, buffer, unknowns);
@@ -144,7 +145,10 @@ std::optional<std::vector<Vec2>> untangle(const Tangle& tangle, std::vector<Vec2
     if (fraction == 0) break;
     uvs = std::move(trial);
     if (after > (1 - kSettled) * before && all_positive(tangle, uvs)) return uvs;
-    epsilon = next_epsilon(epsilon, least_determinant(tangle, uvs), before, after);
+    history.push_back({after, epsilon});
+    const double least = least_determinant(tangle, uvs);
+    if (least < 0 && stay_folded(history)) return std::nullopt;
+    epsilon = next_epsilon(epsilon, least, before, after);
   }
   if (!all_positive(tangle, uvs)) return std::nullopt;
   return uvs;

@@ -2,6 +2,8 @@
 // 2021, "Foldover-free maps in 50 lines of code", eq. (2)-(5).
 #pragma once
 
+#include <vector>
+
 #include "solve/symmetric_dirichlet.h"
 
 namespace atlas_refine {
@@ -14,6 +16,14 @@ double regularised_determinant(double determinant, double epsilon);
 /// The eps after a step that took the energy from `before` to `after`: the largest with which the least determinant counts as
 /// less than before by the share that the energy fell, at least a tenth; next to nothing once all determinants are above that.
 double next_epsilon(double epsilon, double least_determinant, double before, double after);
+
+/// The energy that a step has reached at its eps.
+struct FoldoverLevel {
+  double energy, epsilon;
+};
+
+/// The steps so far tell that the flipped triangles do not unfold: what holds them is fixed.
+bool stay_folded(const std::vector<FoldoverLevel>& steps);
 
 /// (|J|^2 + det^2 + 1) / (4 chi): where eps is 0 the mean of the conformal |J|^2 / (2 det) and the areal (det + 1 / det) / 2;
 /// then 1 for rotations.
