@@ -76,6 +76,18 @@ TEST(Needed, ALowerLimitNeedsMoreBoundary) {
   EXPECT_LT(loose.boundary_growth, tight.boundary_growth);
 }
 
+TEST(Needed, WhereNoCutsKeepTheLimitRectanglesDo) {
+  const Atlas comb = shapes::mesh(shapes::comb(), 0.1, 0), u = shapes::mesh(shapes::u_shape(), 0.1, 0);
+  const RefineResult result = refine(shapes::combine({comb, u, u}), needed_within(1.0001));  // the second U stays on the first
+  EXPECT_TRUE(result.bound_met);
+  EXPECT_LE(result.after.distortion, 1.0001);
+  ASSERT_TRUE(result.rectangles.has_value());
+  EXPECT_EQ(result.cuts->cuts, result.rectangles->trails);
+  EXPECT_TRUE(result.cuts->trade_off[result.cuts->chosen].squeezed);
+  ASSERT_EQ(result.fallbacks.size(), 1u);
+  EXPECT_NE(result.fallbacks[0].find("cut into rectangles"), std::string::npos);
+}
+
 TEST(Needed, WithoutALimitCutsAreMadeWhereTheyPay) {
   const Atlas atlas = flat_s();
   RefineOptions options = needed();

@@ -25,6 +25,8 @@ LEVELS = [
     ["rectangle_pictures", "place_and_squeeze", "cut_plan"],
     ["cut_along_edges"],
     ["rectangles", "whole"],
+    ["cut_shapes"],
+    ["cut_outlines"],
     ["cut_trials"],
     ["cut_outcomes"],
     ["cut_to_limit"],

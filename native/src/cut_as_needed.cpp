@@ -13,7 +13,9 @@
 namespace atlas_refine {
 namespace {
 
-constexpr int kMostPoints = 24;                                          // of a trade-off
+constexpr int kMostPoints = 24;           // of a trade-off
+constexpr int kTipsPart = 3;              // one of so many cuts leads to a point of high curvature
+constexpr double kFewOfRectangles = 0.4;  // growth: rectangles add .38 and more to the one-chart atlases of the bench
 constexpr std::array<double, 5> kPrices = {0.1, 0.4, 0.05, 0.2, 0.025};  // of seams, as seam_cost: for a trade-off
 
 /// How far the search goes.
@@ -45,7 +47,8 @@ class Search {
     if (options_.trade_off) {
       look_for_all();
     } else if (wish_.has_limit()) {
-      cut_to_limit(trials_, options_, rest_, found_);
+      cut_to_limit(trials_, options_, step(), found_);
+      if (may_need_rectangles()) look_at_rectangles();
     } else {
       look_for_best();
     }
@@ -88,6 +91,20 @@ class Search {
     found_.forecast.clear();
   }
 
+  /// The limit is not kept, or by so many seams that rectangles may need fewer.
+  bool may_need_rectangles() {
+    const Trial& best = found_.best(wish_).trial;
+    return !trials_.finishing() && (!wish_.is_enough(best) || best.growth > kFewOfRectangles);
+  }
+
+  void look_at_rectangles() {
+    auto rectangles = trials_.rectangles(rest_);
+    if (!rectangles || rectangles->trial.growth > most_growth()) return;
+    if (wish_.is_enough(rectangles->trial)) found_.squeezed.push_back(std::move(*rectangles));
+  }
+
+  double most_growth() const { return options_.max_boundary_growth.value_or(std::numeric_limits<double>::infinity()); }
+
   template <class Cost>
   std::vector<Trial>::iterator cheapest(const Cost& cost) {
     return std::min_element(found_.forecast.begin(), found_.forecast.end(),
@@ -107,8 +124,7 @@ class Search {
   /// Forecasts what one more cut comes to, and what one cut less does.
   void expand(const SqueezedTrial& present) {
     ++expansions_;
-    const double most = options_.max_boundary_growth.value_or(std::numeric_limits<double>::infinity());
-    for (auto& trial : trials_.forecasts(neighbours(present.trial), &present, most, step())) {
+    for (auto& trial : trials_.forecasts(neighbours(present.trial), &present, most_growth(), step())) {
       if (!trial) continue;
       ++found_.tried;
       const double gain = loss(present.trial) - loss(*trial);
@@ -119,7 +135,8 @@ class Search {
 
   std::vector<std::vector<CutPlace>> neighbours(const Trial& present) const {
     std::vector<std::vector<CutPlace>> out;
-    for (const CutPlace& place : trials_.places(present, budget_.forecasts)) {
+    const int tips = budget_.forecasts / kTipsPart;
+    for (const CutPlace& place : trials_.places(present, budget_.forecasts - tips, tips)) {
       out.push_back(present.cuts);
       out.back().push_back(place);
     }

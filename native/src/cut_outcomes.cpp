@@ -34,9 +34,7 @@ SqueezedTrial& Outcomes::best(const Wish& wish) {
 
 std::vector<TradeOff> Outcomes::trade_off() const {
   std::vector<TradeOff> all;
-  const auto add = [&](const Trial& t, bool is_squeezed) {
-    all.push_back({t.growth, t.distortion, static_cast<int>(t.cuts.size()), is_squeezed});
-  };
+  const auto add = [&](const Trial& t, bool is_squeezed) { all.push_back({t.growth, t.distortion, t.cut_count(), is_squeezed}); };
   for (const Trial& trial : forecast) add(trial, false);
   for (const SqueezedTrial& s : squeezed) add(s.trial, true);
   std::stable_sort(all.begin(), all.end(), [](const TradeOff& a, const TradeOff& b) {
@@ -68,7 +66,7 @@ SqueezedTrial& Outcomes::point(int number) {
 }
 
 CutReport Outcomes::report(const Trial& chosen) const {
-  CutReport out{static_cast<int>(chosen.cuts.size()), tried, trade_off()};
+  CutReport out{chosen.cut_count(), tried, trade_off()};
   for (const TradeOff& outcome : out.trade_off) out.chosen += outcome.boundary_growth <= chosen.growth;
   return out;
 }

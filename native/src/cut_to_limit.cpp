@@ -1,6 +1,6 @@
-// Cut by cut, always the one that saves most for its length beside those that there are. What it saves is foreseen from what it
-// was forecast to save by itself or beside others, so that only few are forecast in each place; only what others go on from, or
-// what is forecast to keep the limit, is squeezed to the end. Once the limit is kept the search goes back to what may need less
+// Cut by cut, always the one that saves most for its length beside those that there are. What it saves is foreseen from the
+// outlines that it leaves, or from what is near a way to a point inside, so that many are looked at and only few forecast; only
+// what is forecast to keep the limit is squeezed to the end. Once the limit is kept the search goes back to what may need less
 // boundary.
 #include "cut_to_limit.h"
 
@@ -16,29 +16,33 @@ constexpr double kHopeful = 0.5;  // further cuts pay at this part of the best r
 // What a cut saves beside others of what it saved by itself, before any was forecast beside others; that counts as so much of
 // the logarithm.
 constexpr double kInherited = 0.8, kPrior = 3;
-constexpr double kLikelyShare = 0.5;   // of the distortion near a cut that relaxes, before any was forecast
-constexpr double kMostShare = 0.9;     // of all distortion that one cut may release
-constexpr double kRemoved = 0.5;       // of what a cut saved when it was added is lost without it
-constexpr double kLeastGain = 0.01;    // of the logarithm of E_d - 1
-constexpr double kNear = 0.1;          // of it, above the limit: what is forecast so near may keep it
-constexpr double kLeastExcess = 1e-6;  // of E_d above 1
+constexpr double kLikelyShare = 0.15;   // of the distortion near a cut that relaxes, before any was forecast
+constexpr double kMostShare = 0.9;      // of all distortion that one cut may release
+constexpr double kPriorStrain = 0.005;  // of E_d, that outlines tell; what they have told counts more from then on
+constexpr double kPriorNear = 0.2;      // the same of distortion near cuts, as a part of all
+constexpr double kRemoved = 0.5;        // of what a cut saved when it was added is lost without it
+constexpr double kLeastGain = 0.01;     // of the logarithm of E_d - 1
+constexpr double kNear = 0.1;           // of it, above the limit: what is forecast so near may keep it
+constexpr double kLeastExcess = 1e-6;   // of E_d above 1
 
 /// How far the search goes.
 struct Budget {
-  int places;     ///< that are looked at from one set
-  int improving;  ///< forecasts in all, once the limit is kept
-  int forecasts;  ///< before
+  int first_places;  ///< cuts across charts that are looked at
+  int places, tips;  ///< the same from a set of cuts, and cuts to points of high curvature
+  int first;         ///< forecast at once
+  int improving;     ///< forecasts in all, once the limit is kept
+  int forecasts;     ///< before
   int squeezes;
 };
 
 Budget budget_of(Effort effort) {
   switch (effort) {
     case Effort::Fast:
-      return {6, 8, 20, 10};
+      return {20, 8, 2, 3, 8, 20, 10};
     case Effort::Normal:
-      return {8, 14, 32, 16};
+      return {30, 14, 4, 4, 14, 32, 16};
     case Effort::Best:
-      return {24, 100, 160, 60};
+      return {60, 40, 8, 8, 100, 160, 60};
   }
   return {};
 }
@@ -67,6 +71,7 @@ struct Prospect {
   double before = 0;                       ///< excess of the set that it is one cut more or less than
   double gain = 0;                         ///< of that, as it is foreseen
   const SqueezedTrial* present = nullptr;  ///< that set, where it is one cut more
+  double less_strain = 0;                  ///< than that set has
   bool is_forecast = false;
   int expansion = 0;  ///< in which it was found
 };
@@ -75,9 +80,14 @@ struct Prospect {
 class Savings {
  public:
   /// `foreseen`: what was expected of it; 0 where nothing was.
-  void learn(const CutPlace& place, double before, double foreseen, double gain) {
-    near_ += place.released / std::exp(before);
-    relaxed_ += std::max(0.0, 1 - std::exp(-gain));
+  void learn(const CutPlace& place, double before, double less_strain, double foreseen, double gain) {
+    if (less_strain > 0) {
+      strain_ += less_strain;
+      for_strain_ += std::exp(before) * std::max(0.0, 1 - std::exp(-gain));
+    } else {
+      near_ += place.released / std::exp(before);
+      relaxed_ += std::max(0.0, 1 - std::exp(-gain));
+    }
     if (foreseen > 0) {
       foreseen_ += foreseen;
       came_ += std::max(0.0, gain);
@@ -90,11 +100,13 @@ class Savings {
     }
   }
 
-  double foresee(const CutPlace& place, double before) const {
+  /// `less_strain`: with it, where outlines tell.
+  double foresee(const CutPlace& place, double less_strain, double before) const {
     const auto known = find(place);
-    if (known != known_.end()) return known->gain;
-    const double share = (kLikelyShare + relaxed_) / (1 + near_) * place.released / std::exp(before);
-    return -std::log(1 - std::min(kMostShare, share));
+    if (known != known_.end() && less_strain == 0) return known->gain;
+    const double near = (kPriorNear * kLikelyShare + relaxed_) / (kPriorNear + near_) * place.released;
+    const double packed = (kPriorStrain + for_strain_) / (kPriorStrain + strain_) * std::max(0.0, less_strain);
+    return -std::log(1 - std::min(kMostShare, (near + packed) / std::exp(before)));
   }
 
   /// The part of what was foreseen that forecasts have come to so far.
@@ -118,7 +130,7 @@ class Savings {
   }
 
   std::vector<Saving> known_;
-  double near_ = 0, relaxed_ = 0, foreseen_ = 0, came_ = 0;
+  double near_ = 0, relaxed_ = 0, foreseen_ = 0, came_ = 0, strain_ = 0, for_strain_ = 0;
 };
 
 /// Sets that the search may go on with, and which of them first.
@@ -130,11 +142,11 @@ class Frontier {
   bool empty() const { return open_.empty(); }
   bool is_near(const Trial& trial) const { return likely_excess(trial) <= limit_ + kNear; }
 
-  /// Coarse charts lose a little more than the charts themselves.
+  /// Coarse charts lose a little more than the charts themselves, wherever these are cut: by what their triangles are larger.
   void learn_bias(const Trial& trial, double foreseen) {
-    if (std::isfinite(trial.distortion) && trial.distortion > 1 && foreseen > 1) bias_ = (trial.distortion - 1) / (foreseen - 1);
+    if (std::isfinite(trial.distortion) && trial.distortion > 1 && foreseen > 1) bias_ = trial.distortion - foreseen;
   }
-  double likely_excess(const Trial& trial) const { return excess(1 + bias_ * (trial.foreseen - 1)); }
+  double likely_excess(const Trial& trial) const { return excess(trial.foreseen + bias_); }
 
   /// The cut that saves most for its length beside those that there are; where none of these is left, back to what promises to
   /// keep the limit with the least boundary. Nothing where none promises to do so with less than `enough`.
@@ -154,16 +166,18 @@ class Frontier {
   }
 
   /// One cut more, at each of these places and of those that have saved something before.
-  void add_more(const SqueezedTrial& squeezed, std::vector<CutPlace> places, double most_growth) {
+  void add_more(const Trial& present, const SqueezedTrial* squeezed, std::vector<CutPlace> places, double most_growth) {
     ++expansions_;
-    const Trial& present = squeezed.trial;
     savings_.add_useful(places);
-    for (const CutPlace& place : places) {
+    const Strains strains = trials_.strains(present, places);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const CutPlace& place = places[k];
       Trial trial{.cuts = present.cuts, .growth = present.growth + trials_.growth_of(place)};
       trial.cuts.push_back(place);
       if (has(present.cuts, place) || trial.growth > most_growth) continue;
       const double before = likely_excess(present);
-      foresee({std::move(trial), before, savings_.foresee(place, before), &squeezed});
+      const double less_strain = strains.with[k] ? strains.present - *strains.with[k] : 0;
+      foresee({std::move(trial), before, savings_.foresee(place, less_strain, before), squeezed, less_strain});
     }
   }
 
@@ -173,7 +187,7 @@ class Frontier {
       Trial trial{.cuts = present.cuts, .growth = present.growth - trials_.growth_of(present.cuts[k])};
       trial.cuts.erase(trial.cuts.begin() + static_cast<std::ptrdiff_t>(k));
       const double before = likely_excess(present);
-      foresee({std::move(trial), before, -kRemoved * std::max(kLeastGain, savings_.foresee(present.cuts[k], before))});
+      foresee({std::move(trial), before, -kRemoved * std::max(kLeastGain, savings_.foresee(present.cuts[k], 0, before))});
     }
   }
 
@@ -183,7 +197,7 @@ class Frontier {
     const double gain = gain_of(prospect);
     if (prospect.gain >= 0) {
       const CutPlace& last = prospect.trial.cuts.back();
-      savings_.learn(last, prospect.before, prospect.gain, gain);
+      savings_.learn(last, prospect.before, prospect.less_strain, prospect.gain, gain);
       if (gain < kLeastGain) return;
       const double growth = trials_.growth_of(last);
       best_rate_ = std::max(best_rate_, gain / (growth + kShortest));
@@ -227,7 +241,7 @@ class Frontier {
   std::vector<Prospect> open_;
   std::vector<std::vector<CutPlace>> seen_;
   Savings savings_;
-  double best_rate_ = 0.1, least_growth_ = 1, bias_ = 1;
+  double best_rate_ = 0.1, least_growth_ = 1, bias_ = 0;
   int expansions_ = 0;
 };
 
@@ -256,6 +270,7 @@ class LimitSearch {
         forecast(std::move(*next));
       }
     }
+    if (best_passed_ && !keeps_limit() && best_passed_->foreseen < found_.best(wish_).trial.foreseen) squeeze(*best_passed_);
   }
 
  private:
@@ -268,14 +283,29 @@ class LimitSearch {
   bool keeps_limit() { return wish_.is_enough(found_.best(wish_).trial); }
   bool may_forecast() { return found_.tried < (keeps_limit() ? budget_.improving : budget_.forecasts); }
 
-  /// Each place is forecast by itself.
+  /// The most promising are forecast side by side.
   void start_from(const SqueezedTrial& whole) {
-    std::vector<std::vector<CutPlace>> sets;
-    for (const CutPlace& place : trials_.places(whole.trial, budget_.places)) sets.push_back({place});
-    for (auto& trial : trials_.forecasts(sets, &whole, most_growth_, step())) {
-      ++found_.tried;
-      if (trial) frontier_.add_forecast({std::move(*trial), frontier_.likely_excess(whole.trial), 0, &whole});
+    expand(whole.trial, &whole);
+    std::vector<Prospect> first;
+    while (static_cast<int>(first.size()) < budget_.first) {
+      auto next = frontier_.next(std::numeric_limits<double>::infinity());
+      if (!next) break;
+      first.push_back(std::move(*next));
     }
+    std::vector<std::vector<CutPlace>> sets;
+    for (const Prospect& prospect : first) sets.push_back(prospect.trial.cuts);
+    const auto trials = trials_.forecasts(sets, &whole, most_growth_, step());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      ++found_.tried;
+      if (!trials[k]) continue;
+      first[k].trial = std::move(*trials[k]);
+      frontier_.add_forecast(std::move(first[k]));
+    }
+  }
+
+  void expand(const Trial& present, const SqueezedTrial* squeezed) {
+    const int places = present.cuts.empty() ? budget_.first_places : budget_.places;
+    frontier_.add_more(present, squeezed, trials_.places(present, places, budget_.tips), most_growth_);
   }
 
   void forecast(Prospect prospect) {
@@ -286,18 +316,28 @@ class LimitSearch {
     frontier_.add_forecast(std::move(prospect));
   }
 
-  /// Squeezed, and others found from there; once no more can be forecast only where that may be the end, or the best there is.
+  /// Squeezed, and others found from there. Pieces that are placed anew with every cut are only squeezed where that may be the
+  /// end; once no more can be forecast, or where that may be the best there is.
   void look_at(const Prospect& prospect) {
     const bool is_best = !keeps_limit() && prospect.trial.foreseen < found_.best(wish_).trial.foreseen;
-    if (!may_forecast() && !frontier_.is_near(prospect.trial) && !is_best) return;
-    auto squeezed = trials_.squeezed(prospect.trial, step());
+    const bool is_near = frontier_.is_near(prospect.trial);
+    if (may_forecast() && !is_near && trials_.places_anew()) {
+      if (!best_passed_ || prospect.trial.foreseen < best_passed_->foreseen) best_passed_ = prospect.trial;
+      return expand(prospect.trial, nullptr);
+    }
+    if (!may_forecast() && !is_near && !is_best) return;
+    squeeze(prospect.trial);
+  }
+
+  void squeeze(const Trial& trial) {
+    auto squeezed = trials_.squeezed(trial, step());
     if (!squeezed) return;
-    frontier_.learn_bias(squeezed->trial, prospect.trial.foreseen);
+    frontier_.learn_bias(squeezed->trial, trial.foreseen);
     const SqueezedTrial& found = found_.squeezed.emplace_back(std::move(*squeezed));
     if (wish_.is_enough(found.trial)) {
       frontier_.add_less(found.trial);
     } else {
-      frontier_.add_more(found, trials_.places(found.trial, budget_.places), most_growth_);
+      expand(found.trial, &found);
     }
   }
 
@@ -308,6 +348,7 @@ class LimitSearch {
   ProgressRange rest_;
   Outcomes& found_;
   Frontier frontier_;
+  std::optional<Trial> best_passed_;  // of those that others were found from but that were not squeezed
 };
 
 }  // namespace

@@ -1,15 +1,18 @@
 // Cuts made one after the other, pieces placed anew, squeezed.
 #include "cut_trials.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "cut_outlines.h"
 #include "geometry/boundary.h"
 #include "geometry/rest_triangle.h"
 #include "input/price_sides.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "place_and_squeeze.h"
+#include "rectangles.h"
 #include "reduce/goal.h"
 #include "reduce/reduce.h"
 #include "repair/part_touching.h"
@@ -20,8 +23,6 @@
 
 namespace atlas_refine {
 namespace {
-
-constexpr std::size_t kFewCharts = 8;  // of these all pieces are placed anew as well
 
 /// Draws borders of one piece that touch along a cut a little apart; false where that does not make it valid.
 bool part_along_cuts(const std::vector<ChartCuts>& charts, CutAtlas& atlas) {
@@ -34,12 +35,32 @@ bool part_along_cuts(const std::vector<ChartCuts>& charts, CutAtlas& atlas) {
   return true;
 }
 
+std::vector<Chart> charts_at_density(const Refinement& run) {
+  std::vector<Chart> charts = run.input.set.charts;
+  const Density density = run.options.density;
+  set_density(charts, wanted_density(charts, density), density, freedom_of(run.input.set, run.options));
+  return charts;
+}
+
+/// Once there are cuts most others change next to nothing: what they come to tells more than one rough packing without any.
+double upper_quartile(const std::vector<std::optional<double>>& values) {
+  std::vector<double> known;
+  for (const auto& value : values) {
+    if (value) known.push_back(*value);
+  }
+  if (known.empty()) return std::numeric_limits<double>::infinity();
+  const auto at = known.begin() + static_cast<std::ptrdiff_t>(3 * known.size() / 4);
+  std::nth_element(known.begin(), at, known.end());
+  return *at;
+}
+
 }  // namespace
 
 CutTrials::CutTrials(const Refinement& run, const ProgressRange& range)
     : run_(run),
       freedom_(freedom_of(run.input.set, run.options)),
       whole_(whole_charts(run, range)),
+      shapes_(shapes_as_they_came(charts_at_density(run), whole_.atlas, whole_.mended)),
       prices_(price_sides(run.input.atlas, run.input.set, run.options)),
       boundary_(boundary_on_surface(meshes_of(whole_.atlas))) {
   for (const Piece& piece : whole_.atlas.pieces) area_ += piece.mesh.surface.area();
@@ -100,6 +121,7 @@ std::optional<CutAtlas> CutTrials::atlas_of(const std::vector<ChartCuts>& charts
   }
   const std::vector<Chart>& sources = run_.input.set.charts;
   CutAtlas out = cut_along(divided_atlas(meshes, sources, run_.input.set.points), sources, paths);
+  restore_shapes(shapes_, out);
   if (!part_along_cuts(charts, out)) return std::nullopt;
   return out;
 }
@@ -122,6 +144,13 @@ std::optional<CutAtlas> CutTrials::in_place(const std::vector<ChartCuts>& charts
   return std::nullopt;
 }
 
+/// What was told since then.
+void CutTrials::keep_words(const Journal::Mark& since, SqueezedTrial& out) const {
+  const std::vector<std::string>&fallbacks = run_.journal.fallbacks, &warnings = run_.journal.warnings;
+  out.fallbacks.assign(fallbacks.begin() + static_cast<std::ptrdiff_t>(since.fallbacks), fallbacks.end());
+  out.warnings.assign(warnings.begin() + static_cast<std::ptrdiff_t>(since.warnings), warnings.end());
+}
+
 std::optional<SqueezedTrial> CutTrials::squeezed(const Trial& trial, const ProgressRange& range) const {
   const auto charts = made(trial.cuts);
   const auto atlas = charts ? atlas_of(*charts) : std::nullopt;
@@ -140,9 +169,25 @@ std::optional<SqueezedTrial> CutTrials::squeezed(const Trial& trial, const Progr
     out->trial.forecast.reset();
     out->trial.distortion = distortion_of(out->solution);
     out->trial.losses = losses(*atlas, out->solution);
-    out->fallbacks.assign(journal.fallbacks.begin() + static_cast<std::ptrdiff_t>(before.fallbacks), journal.fallbacks.end());
-    out->warnings.assign(journal.warnings.begin() + static_cast<std::ptrdiff_t>(before.warnings), journal.warnings.end());
+    keep_words(before, *out);
     if (trial.in_place_of) out->warnings = trial.in_place_of->warnings;
+  }
+  journal.back_to(before);
+  return out;
+}
+
+std::optional<SqueezedTrial> CutTrials::rectangles(const ProgressRange& range) const {
+  Journal& journal = run_.journal;
+  const Journal::Mark before = journal.mark();
+  Attempt attempt = refine_by_rectangles(run_, range);
+  std::optional<SqueezedTrial> out;
+  if (attempt.solution) {
+    out = SqueezedTrial{.trial = {}, .solution = std::move(*attempt.solution)};
+    if (out->solution.rectangles) out->trial.trails = out->solution.rectangles->trails;
+    out->trial.growth = boundary_on_surface(meshes_of(out->solution.atlas)) / boundary_ - 1;
+    out->trial.foreseen = out->trial.distortion = distortion_of(out->solution);
+    keep_words(before, *out);
+    out->fallbacks.push_back("cut into rectangles: no fewer seams were found that keep distortion within the limit");
   }
   journal.back_to(before);
   return out;
@@ -185,18 +230,25 @@ std::vector<std::optional<Trial>> CutTrials::forecasts(const std::vector<std::ve
   return out;
 }
 
+/// Where a vertex of a cut piece lies in the chart as repaired.
+Vec2 CutTrials::place_before(const Piece& piece, int vertex) const {
+  if (shapes_.uvs[piece.chart].empty()) return piece.mesh.uvs[vertex];
+  return value_at(piece.supports[vertex], whole_.atlas.pieces[piece.chart].mesh.uvs);
+}
+
 /// What each triangle has lost in the solution, times its area; `atlas`: the pieces before they were squeezed.
 std::vector<std::vector<Loss>> CutTrials::losses(const CutAtlas& atlas, const Solution& solution) const {
   std::vector<std::vector<Loss>> out(whole_.atlas.pieces.size());
   const double scale = dirichlet_sums(meshes_of(solution.atlas)).best_scale();
   for (std::size_t p = 0; p < atlas.pieces.size(); ++p) {
-    const Chart& before = atlas.pieces[p].mesh;
+    const Piece& piece = atlas.pieces[p];
+    const Chart& before = piece.mesh;
     const std::vector<Vec2>& after = solution.atlas.pieces[p].mesh.uvs;
     for (std::size_t t = 0; t < before.triangles.size(); ++t) {
       const auto [a, b, c] = before.triangles[t];
       const Mat2 j = scale * jacobian(before.surface[t].inverse_edges, after[a], after[b], after[c]);
       const double amount = before.surface[t].area * (symmetric_dirichlet(j) - 1) / area_;
-      out[atlas.pieces[p].chart].push_back({(before.uvs[a] + before.uvs[b] + before.uvs[c]) / 3, amount});
+      out[piece.chart].push_back({(place_before(piece, a) + place_before(piece, b) + place_before(piece, c)) / 3, amount});
     }
   }
   return out;
@@ -206,19 +258,31 @@ std::vector<std::vector<Loss>> CutTrials::losses(const CutAtlas& atlas, const Fo
   std::vector<std::vector<Loss>> out(whole_.atlas.pieces.size());
   for (const Forecast::Loss& loss : forecast.losses) {
     const Piece& piece = atlas.pieces[loss.chart];
-    const std::vector<Vec2>& uvs = piece.mesh.uvs;
     const auto [a, b, c] = loss.corners;
-    out[piece.chart].push_back({(uvs[a] + uvs[b] + uvs[c]) / 3, loss.amount});
+    out[piece.chart].push_back({(place_before(piece, a) + place_before(piece, b) + place_before(piece, c)) / 3, loss.amount});
   }
   return out;
 }
 
-std::vector<CutPlace> CutTrials::places(const Trial& present, int most) const {
+std::vector<CutPlace> CutTrials::places(const Trial& present, int straight, int tips) const {
   const auto charts = made(present.cuts);
   std::vector<ChartState> states;
   for (std::size_t c = 0; c < charts->size(); ++c)
     states.push_back({bends(freedom_, c) ? &(*charts)[c] : nullptr, &whole_.atlas.pieces[c].mesh, present.losses[c]});
-  return cut_places(states, most);
+  return cut_places(states, straight, tips);
+}
+
+Strains CutTrials::strains(const Trial& present, const std::vector<CutPlace>& places) const {
+  Strains out{.present = 0, .with = std::vector<std::optional<double>>(places.size())};
+  const auto charts = made(present.cuts);
+  if (any_fixed(freedom_) || !charts || !places_anew()) return out;
+  const CutOutlines outlines(run_.options, *charts, shapes_);
+  out.present = outlines.strain();
+  parallel_ranges(static_cast<int>(places.size()), run_.threads, 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) out.with[k] = outlines.strain_with(places[k]);
+  });
+  if (!present.cuts.empty()) out.present = std::min(out.present, upper_quartile(out.with));
+  return out;
 }
 
 double CutTrials::growth_of(const CutPlace& place) const {

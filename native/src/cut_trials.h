@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cut_shapes.h"
 #include "reduce/squeeze.h"
 #include "report/solution.h"
 #include "seams/cut_places.h"
@@ -12,11 +13,14 @@
 
 namespace atlas_refine {
 
+inline constexpr std::size_t kFewCharts = 8;  ///< of these all pieces are placed anew as well
+
 struct SqueezedTrial;
 
 /// The outcome of some cuts.
 struct Trial {
   std::vector<CutPlace> cuts;  ///< in the order in which they are made
+  int trails = 0;              ///< instead of them, where charts are cut into rectangles
   double growth = 0;           ///< of the boundary on the surface, as a fraction of that of the charts; both sides of a cut count
   double distortion = 0;       ///< E_d; infinite where the bound does not hold
   double foreseen = 0;         ///< the same as it was forecast
@@ -24,6 +28,8 @@ struct Trial {
   const SqueezedTrial* in_place_of = nullptr;
   std::optional<Forecast> forecast = {};
   std::vector<std::vector<Loss>> losses = {};  ///< of each chart
+
+  int cut_count() const { return static_cast<int>(cuts.size()) + trails; }
 };
 
 /// The same squeezed to the end.
@@ -33,10 +39,19 @@ struct SqueezedTrial {
   std::vector<std::string> fallbacks = {}, warnings = {};  ///< told on the way
 };
 
+/// CutOutlines::strain() of some cuts, and with one more of some places.
+struct Strains {
+  double present;
+  std::vector<std::optional<double>> with;
+};
+
 class CutTrials {
  public:
   /// `run`: without a largest distortion.
   CutTrials(const Refinement& run, const ProgressRange& range);
+
+  /// Pieces are best placed anew with every cut, not left where they lie.
+  bool places_anew() const { return whole_.atlas.pieces.size() <= kFewCharts; }
 
   /// What there is will do.
   bool finishing() const { return run_.monitor.finishing(); }
@@ -48,13 +63,18 @@ class CutTrials {
   /// Of what was forecast; nothing where the bound does not hold.
   std::optional<SqueezedTrial> squeezed(const Trial& trial, const ProgressRange& range) const;
 
+  /// Charts cut into rectangles; nothing where they cannot be.
+  std::optional<SqueezedTrial> rectangles(const ProgressRange& range) const;
+
   /// What sets of cuts come to: a trial for each that can be made, leaves no slivers, adds at most `most_growth` and holds the
   /// bound. Sets of one cut more than `present` may also be left in its layout; it must outlive them.
   std::vector<std::optional<Trial>> forecasts(const std::vector<std::vector<CutPlace>>& sets, const SqueezedTrial* present,
                                               double most_growth, const ProgressRange& range) const;
 
-  /// Where one more cut may pay; at most `most`.
-  std::vector<CutPlace> places(const Trial& present, int most) const;
+  /// Where one more cut may pay; at most so many across charts, and to points of high curvature.
+  std::vector<CutPlace> places(const Trial& present, int straight, int tips) const;
+  /// What the pieces are likely to lose, and with each of these cuts; nothing of atlases of many charts.
+  Strains strains(const Trial& present, const std::vector<CutPlace>& places) const;
 
   /// Boundary that a cut adds, roughly, as Trial::growth.
   double growth_of(const CutPlace& place) const;
@@ -69,11 +89,14 @@ class CutTrials {
   bool leaves_slivers(const std::vector<ChartCuts>& charts) const;
   std::vector<std::vector<Loss>> losses(const CutAtlas& atlas, const Solution& solution) const;
   std::vector<std::vector<Loss>> losses(const CutAtlas& atlas, const Forecast& forecast) const;
+  void keep_words(const Journal::Mark& since, SqueezedTrial& out) const;
+  Vec2 place_before(const Piece& piece, int vertex) const;
   double distortion_of(const Solution& solution) const;
 
   const Refinement& run_;
   Freedoms freedom_;
   WholeCharts whole_;
+  ShapesAsTheyCame shapes_;
   std::vector<SidePrices> prices_;
   double boundary_;    // of all charts, on the surface
   double area_ = 0;    // likewise

@@ -109,6 +109,10 @@ TEST(PackCharts, NestedShapesInterlock) {
 
 TEST(PackCharts, QuicklyTheGapIsKeptAsWell) { pack(named_charts(), {.gap = 0.01, .target_pe = 0.9, .quick = true}); }
 
+TEST(PackCharts, RoughlyTheGapIsKeptAsWell) {
+  pack(named_charts(), {.gap = 0.01, .target_pe = 0.9, .quick = true, .rough = true});
+}
+
 TEST(PackCharts, WithoutAGapChartsStillDoNotTouch) { pack(named_charts(), {.gap = 0}); }
 
 TEST(PackCharts, RandomChartsKeepTheGap) {

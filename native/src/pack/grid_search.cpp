@@ -19,11 +19,12 @@ namespace {
 /// looking for each chart's place from the bottom on takes too long.
 constexpr int kTooManyToCompact = 500;
 constexpr int kFinalists = 4;
-constexpr int kBatch = 32;  // greedy starts between two looks at the target
+constexpr int kBatch = 32;        // greedy starts between two looks at the target
+constexpr int kRoughStarts = 65;  // and that one which tells what they cost
 /// Work of all greedy starts in words looked at: more than atlases of any number of charts need, half a second of tall strips.
 constexpr std::int64_t kGreedyWork = budget(200'000'000);
 /// Cells along the side for sixty charts. More charts need a finer grid, or most of it is what rounding adds to each.
-constexpr double kCells = 256, kCellsOfMany = 512, kCellsOfTooMany = 768, kQuickCells = 128;
+constexpr double kCells = 256, kCellsOfMany = 512, kCellsOfTooMany = 768, kQuickCells = 128, kRoughCells = 96;
 constexpr double kMostCells = 8192;  ///< bounds the memory
 /// Cells are so large that no chart is longer than this many sides of the grid: a needle's length is no measure of the area.
 constexpr double kLongestChart = 16;
@@ -61,13 +62,14 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
   }
   Grid grid;
   const double cells = n > kTooManyToCompact ? kCellsOfTooMany : n > kManyCharts ? kCellsOfMany : kCells;
-  grid.cells_per_side = std::clamp(cells * std::sqrt(n / 60.0), options.quick ? kQuickCells : kCells, kMostCells);
+  const double least = options.rough ? kRoughCells : options.quick ? kQuickCells : kCells;
+  grid.cells_per_side = std::clamp(cells * std::sqrt(n / 60.0), least, kMostCells);
   grid.cell = std::max(std::sqrt(dilated_area / 0.8), longest / kLongestChart) / grid.cells_per_side;
   grid.charts.resize(n);
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       watch.poll(static_cast<double>(i - begin) / (end - begin));
-      for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : options.quick ? 4 : 2))
+      for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : options.quick && !options.rough ? 4 : 2))
         grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options.gap, grid.cell));
     }
   });
@@ -115,7 +117,8 @@ std::vector<Placement> placements_of(const Grid& grid, const GridLayout& layout)
   return placements;
 }
 
-int starts_of(int charts) {
+int starts_of(int charts, const PackOptions& options) {
+  if (options.rough) return kRoughStarts;
   if (charts > kTooManyToCompact) return 1;
   return charts > kManyCharts ? std::clamp(2000 / charts, 1, 8) : std::clamp(4000 / charts, 64, 400);
 }
@@ -142,8 +145,8 @@ class Search {
 
   std::vector<Placement> run() {
     const int n = static_cast<int>(outlines_.size());
-    start_greedily(starts_of(n));
-    if (least_area_ > enough_ && n <= kTooManyToCompact) compact_best(1, 0.3, 0.4);
+    start_greedily(starts_of(n, options_));
+    if (!options_.rough && least_area_ > enough_ && n <= kTooManyToCompact) compact_best(1, 0.3, 0.4);
     if (!options_.quick && least_area_ > enough_ && n <= kManyCharts) {
       shrink_best();
       if (least_area_ > enough_) compact_best(kFinalists, 0.9, 1);

@@ -41,6 +41,8 @@ struct PackOptions {
   std::uint64_t seed = 1;
   int threads = 1;
   bool quick = false;                     ///< greedy placements only, rougher but more of them
+  bool rough = false;                     ///< of the quick ones only few: to tell which of many
+                                          ///< atlases can be packed well
   std::function<void(double)> tick = {};  ///< called from the calling thread with
                                           ///< progress in [0, 1]; may throw to cancel
 };

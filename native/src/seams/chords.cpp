@@ -8,6 +8,14 @@
 #include "geometry/predicates.h"
 
 namespace atlas_refine {
+
+bool leads_inside(const std::vector<Vec2>& loop, int k, const Vec2& target) {
+  const int n = static_cast<int>(loop.size());
+  const Vec2 &before = loop[(k + n - 1) % n], &at = loop[k], &after = loop[(k + 1) % n];
+  const bool left_of_after = orientation(at, after, target) > 0, left_of_before = orientation(before, at, target) > 0;
+  return orientation(before, at, after) > 0 ? left_of_after && left_of_before : left_of_after || left_of_before;
+}
+
 namespace {
 
 constexpr int kStations = 128;        // on all loops together
@@ -67,14 +75,6 @@ std::vector<Station> stations_on(const std::vector<Loop>& loops, double spacing)
     if (best >= 0) out.push_back({l, best, loop.arc[best]});
   }
   return out;
-}
-
-/// Whether the direction leads from a vertex of the loop into the region.
-bool leads_inside(const std::vector<Vec2>& loop, int k, const Vec2& target) {
-  const int n = static_cast<int>(loop.size());
-  const Vec2 &before = loop[(k + n - 1) % n], &at = loop[k], &after = loop[(k + 1) % n];
-  const bool left_of_after = orientation(at, after, target) > 0, left_of_before = orientation(before, at, target) > 0;
-  return orientation(before, at, after) > 0 ? left_of_after && left_of_before : left_of_after || left_of_before;
 }
 
 /// No border is met between the ends. Borders that end at the ends' places do not count.

@@ -24,6 +24,9 @@ struct Chord {
   double length() const { return (at[1] - at[0]).norm(); }
 };
 
+/// Whether the way from a vertex of a loop to the target begins in the region.
+bool leads_inside(const std::vector<Vec2>& loop, int k, const Vec2& target);
+
 /// The necks of the regions: chords that are short for what they cut off, at least `least_part`, best first, none near a better
 /// one; at most `most`. Those between two loops count as if they cut off a quarter of the region.
 std::vector<Chord> necks(const Border& border, double least_part, int most);

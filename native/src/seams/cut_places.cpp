@@ -16,8 +16,7 @@ namespace {
 constexpr int kCharts = 6;        // that lose most: only they are looked at
 constexpr int kNecks = 24;        // of each chart
 constexpr double kAround = 0.75;  // of a cut's length: what is so near it can relax
-constexpr int kWays = 2;          // to each point of high curvature, of the chart that loses most,
-constexpr int kTipsPart = 3;      // one of so many cuts leads to such a point
+constexpr int kWays = 2;          // to each point of high curvature, of the chart that loses most
 
 double lost(const ChartState& state) {
   return std::accumulate(state.losses.begin(), state.losses.end(), 0.0, [](double sum, const Loss& l) { return sum + l.amount; });
@@ -96,14 +95,14 @@ bool same(const CutPlace& a, const CutPlace& b) { return a.chart == b.chart && a
 
 }  // namespace
 
-std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int most) {
-  std::vector<CutPlace> ranked, tips;
+std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int straight, int tips) {
+  std::vector<CutPlace> ranked, ways;
   const std::vector<int> charts = charts_by_loss(states);
   for (const int c : charts) {
     const Border border = states[c].cuts->border();
     for (const Chord& chord : necks(border, kLeastPart * area_within(border), kNecks))
       ranked.push_back({c, chord, loss_near(states[c], chord)});
-    if (c == charts.front()) tips = ways_to_tips(states[c], c, border, most / kTipsPart);
+    if (c == charts.front()) ways = ways_to_tips(states[c], c, border, tips);
   }
   std::vector<CutPlace> by_loss = ranked;
   std::stable_sort(ranked.begin(), ranked.end(),
@@ -115,12 +114,12 @@ std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int most
   const auto add = [&](const CutPlace& place) {
     if (std::none_of(out.begin(), out.end(), [&](const CutPlace& other) { return same(other, place); })) out.push_back(place);
   };
-  const std::size_t straight = std::max(0, most - static_cast<int>(tips.size()));
+  const std::size_t most = straight;
   for (std::size_t k = 0; k < ranked.size(); ++k) {
-    if (out.size() < straight) add(by_loss[k]);
-    if (out.size() < straight) add(ranked[k]);
+    if (out.size() < most) add(by_loss[k]);
+    if (out.size() < most) add(ranked[k]);
   }
-  for (const CutPlace& tip : tips) add(tip);
+  for (const CutPlace& way : ways) add(way);
   return out;
 }
 

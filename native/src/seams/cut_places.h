@@ -29,8 +29,9 @@ struct ChartState {
   std::vector<Loss> losses;
 };
 
-/// At most `most`, best first: in turn by how short they are for what they cut off and by how much distortion is near them for
-/// their length, then ways to points of high curvature. Charts of `states` without cuts of their own (nullptr) are left alone.
-std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int most);
+/// At most `straight` across charts, best first: in turn by how short they are for what they cut off and by how much distortion
+/// is near them for their length; then at most `tips` ways to points of high curvature. Charts of `states` without cuts of their
+/// own (nullptr) are left alone.
+std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int straight, int tips);
 
 }  // namespace atlas_refine
