@@ -174,9 +174,10 @@ double taken(const Refinement& run, const std::vector<Chart>& charts, const Gap&
   return pe * (1 + 0.5 * gap.length(sides_of_area(box, run.options.box_aspect)) * uv_perimeter(charts) / uv_area(charts));
 }
 
-/// More than any placement of charts that bend takes of a box that holds the bound.
+/// More than any placement of thousands of charts takes of its box: seven such atlases, of 1000 to 20,000 charts, took 0.82 to
+/// 0.89.
 bool takes_too_much(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap) {
-  constexpr double kMostTaken = 0.93;
+  constexpr double kMostTaken = 0.9;
   return !none_bends(freedom) && !any_fixed(freedom) && taken(run, charts, gap, run.options.pe_bound) > kMostTaken;
 }
 

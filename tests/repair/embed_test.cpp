@@ -8,6 +8,7 @@
 
 #include "charts.h"
 #include "shapes.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -73,6 +74,26 @@ TEST(Embed, BlobsOnNarrowNecksKeepTheirSizes) {
     return on_tube(i, 0, 25, 0.15 + 3 * std::abs(std::sin(0.13 * j))) + Vec3(0, 0, 0.5 * j);
   });
   EXPECT_LT(embedded_energy(blobs), 1.1);
+}
+
+TEST(Embed, ManyTrianglesGoDownOnCoarseOnes) {
+  constexpr int kSide = 125;  // quads
+  Atlas atlas;
+  atlas.face_offsets = {0};
+  for (int v = 0; v < (kSide + 1) * (kSide + 1); ++v)
+    atlas.positions.emplace_back(v % (kSide + 1), v / (kSide + 1), 2 * std::sin(0.1 * (v % (kSide + 1))));
+  for (int f = 0; f < kSide * kSide; ++f) {
+    const int v = f / kSide * (kSide + 1) + f % kSide;
+    for (const int corner : {v, v + 1, v + kSide + 2, v + kSide + 1}) {
+      atlas.corner_vertices.push_back(corner);
+      atlas.corner_uvs.emplace_back(corner % (kSide + 1), corner / (kSide + 1));
+    }
+    atlas.face_offsets.push_back(atlas.corner_count());
+  }
+  const PhaseScope scope(Phase::Other);
+  take_account();
+  EXPECT_LT(embedded_energy(testing::charts_of(atlas).at(0)), 1.001);
+  EXPECT_GT(take_account().seconds[static_cast<int>(Phase::Coarsen)], 0);
 }
 
 TEST(Embed, ManyHolesStayOpen) {

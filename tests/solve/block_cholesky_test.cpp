@@ -164,5 +164,11 @@ TEST(BlockCholesky, RefusesAnIndefiniteMatrix) {
   EXPECT_FALSE(m.factor());
 }
 
+TEST(Buffer, GrowsByALittleWithoutNewMemory) {
+  Buffer buffer;
+  const double* memory = buffer.reserve(1000);
+  EXPECT_EQ(buffer.reserve(1200), memory);
+}
+
 }  // namespace
 }  // namespace atlas_refine

@@ -1,4 +1,4 @@
-// Tutte's embedding, its rounding mended, and from there downhill.
+// Tutte's embedding, its rounding mended, and from there downhill, on coarse charts first.
 #include "repair/embed.h"
 
 #include <Eigen/Eigenvalues>
@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coarsen/coarse_atlas.h"
 #include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
 #include "geometry/tutte.h"
@@ -129,6 +130,40 @@ Objective shapes_of_uvs(const Chart& chart, const std::vector<Chart>& pieces) {
   return make_objective(pieces, {.reference_uvs = {chart.uvs}, .reference_scale = {sums_of_good(chart).best_scale()}});
 }
 
+ReduceResult downhill(const Chart& chart, const Objective& objective, int threads, Monitor& monitor) {
+  // Shapes may be kept all but exactly: no part of a distortion that is nothing is worth a wait.
+  constexpr double kNegligible = 1e-6;
+  const std::vector<Chart> charts = {chart};
+  const ReduceProblem problem{.charts = charts,
+                              .objective = objective,
+                              .gap = {.value = kGapForLargerBox * Gap{}.value},
+                              .negligible = kNegligible,
+                              .most_energy = kCollapsed,
+                              .threads = threads};
+  return reduce_distortion(problem, [&](const ReduceProgress& progress) {
+    // The energy falls from far above to near 1: its logarithm tells how far the way is.
+    monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
+    return true;  // nothing valid is there before this has ended
+  });
+}
+
+/// The way down on coarse charts, as far as they can follow. Coarse triangles of a distorted start bend it roughly only; those of
+/// what comes of it are better shaped.
+Chart coarsely_downhill(Chart chart, const Objective& objective, int threads, Monitor& monitor) {
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto coarse = coarsen({chart}, objective, {});
+    if (!coarse) return chart;
+    const PlacedCharts rough = restricted(*coarse, {.charts = {chart}});
+    const ReduceResult end = downhill(rough.charts.front(), coarse->objective, threads, monitor);
+    if (!(end.energy <= kCollapsed)) return chart;
+    auto uvs = prolonged(*coarse, {chart}, objective, end.uvs);
+    if (!uvs) return chart;
+    chart.uvs = std::move(uvs->front());
+  }
+  return chart;
+}
+
 }  // namespace
 
 std::optional<Chart> spread_out(const Chart& chart, int threads, Monitor& monitor) {
@@ -140,20 +175,12 @@ std::optional<Chart> spread_out(const Chart& chart, int threads, Monitor& monito
 }
 
 std::optional<Chart> embed(const Chart& chart, const Chart& start, Shapes shapes, int threads, Monitor& monitor) {
-  const std::vector<Chart> charts = {start};
-  // Shapes may be kept all but exactly: no part of a distortion that is nothing is worth a wait.
-  constexpr double kNegligible = 1e-6;
-  ReduceProblem problem{.charts = charts,
-                        .gap = {.value = kGapForLargerBox * Gap{}.value},
-                        .negligible = kNegligible,
-                        .most_energy = kCollapsed,
-                        .threads = threads};
-  if (shapes == Shapes::OfUvs) problem.objective = shapes_of_uvs(chart, charts);
-  ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
-    // The energy falls from far above to near 1: its logarithm tells how far the way is.
-    monitor.report(1 - (std::log10(1e-3 + progress.energy - 1) + 3) / 12);
-    return true;  // nothing valid is there before this has ended
-  });
+  const Objective objective = shapes == Shapes::OfUvs ? shapes_of_uvs(chart, {start}) : make_objective({start});
+  // Fewer are soon down by themselves, and the way over coarse charts may lead to another optimum.
+  constexpr std::size_t kMany = 30000;  // triangles
+  const bool many = chart.triangles.size() >= kMany;
+  ReduceResult result =
+      downhill(many ? coarsely_downhill(start, objective, threads, monitor) : start, objective, threads, monitor);
   if (!(result.energy <= kCollapsed)) return std::nullopt;
   // The start may have had polygons that were not convex and had no guards; those that are in the end are guarded from here on.
   Chart embedded = chart;

@@ -39,8 +39,9 @@ void add_update(const double* update, std::span<const int> places, int begin, in
 double* Buffer::reserve(std::size_t size) {
   if (size > size_) {
     values_.reset();  // before the new ones are there
-    values_ = std::make_unique_for_overwrite<double[]>(size);
-    size_ = size;
+    // Patterns grow by a little again and again; memory that is not written costs nothing.
+    size_ = size + size / 4;
+    values_ = std::make_unique_for_overwrite<double[]>(size_);
   }
   return values_.get();
 }
