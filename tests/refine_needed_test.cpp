@@ -109,6 +109,18 @@ TEST(Needed, AlongEdgesTheMeshIsKept) {
   EXPECT_GT(result.new_seams.size(), 0u);
 }
 
+TEST(Needed, AShortCutThatDoesMoreThanForeseenIsFound) {
+  // Straight ways through a band are told longer than its rungs, and ways along it, which follow edges around it, much shorter.
+  const Atlas atlas = shapes::quad_band(24, 3, 0.8);
+  RefineOptions options = needed_within(1 + 0.5 * (without_cuts(atlas) - 1));
+  options.cut = Cut::Edges;
+  options.effort = Effort::Normal;
+  const RefineResult result = refine_soundly(atlas, options);
+  EXPECT_EQ(result.new_seams.size(), 3u);
+  options.max_boundary_growth = result.boundary_growth + 1e-6;
+  EXPECT_EQ(refine_soundly(atlas, options).new_seams.size(), 3u);
+}
+
 TEST(Needed, WhatCannotBeHadTogetherIsNamed) {
   const Atlas atlas = flat_star();
   RefineOptions options = needed_within(1.0001);

@@ -22,6 +22,8 @@ constexpr double kPriorStrain = 0.005;  // of E_d, that outlines tell; what they
 constexpr double kPriorNear = 0.2;      // the same of distortion near cuts, as a part of all
 constexpr double kRemoved = 0.5;        // of what a cut saved when it was added is lost without it
 constexpr double kLeastGain = 0.01;     // of the logarithm of E_d - 1
+constexpr double kMuchLess = 0.7;       // of the boundary
+constexpr double kRoughly = 1.25;       // times the boundary that is told before a cut is made
 constexpr double kNear = 0.1;           // of it, above the limit: what is forecast so near may keep it
 constexpr double kLeastExcess = 1e-6;   // of E_d above 1
 
@@ -69,11 +71,15 @@ bool same(const std::vector<CutPlace>& a, const std::vector<CutPlace>& b) {
 struct Prospect {
   Trial trial;
   double before = 0;                       ///< excess of the set that it is one cut more or less than
+  double growth_before = 0;                ///< the boundary without its last cut, as Trial::growth
   double gain = 0;                         ///< of that, as it is foreseen
   const SqueezedTrial* present = nullptr;  ///< that set, where it is one cut more
   double less_strain = 0;                  ///< than that set has
   bool is_forecast = false;
   int expansion = 0;  ///< in which it was found
+
+  /// By the last cut: along edges of faces it may be much longer than straight.
+  double growth() const { return trial.growth - growth_before; }
 };
 
 /// What cuts save of the excess, learnt from forecasts.
@@ -149,20 +155,17 @@ class Frontier {
   double likely_excess(const Trial& trial) const { return excess(trial.foreseen + bias_); }
 
   /// The cut that saves most for its length beside those that there are; where none of these is left, back to what promises to
-  /// keep the limit with the least boundary. Nothing where none promises to do so with less than `enough`.
+  /// keep the limit with the least boundary. Where none promises to do so with less than `enough`, what may surprise.
   std::optional<Prospect> next(double enough) {
-    const auto hopeless = [&](const Prospect& p) { return promise(p) >= enough; };
-    open_.erase(std::remove_if(open_.begin(), open_.end(), hopeless), open_.end());
-    if (open_.empty()) return std::nullopt;
+    const auto hopeful =
+        std::stable_partition(open_.begin(), open_.end(), [&](const Prospect& p) { return promise(p) < enough; });
+    if (hopeful == open_.begin()) return surprising(enough);
     const auto last =
-        std::stable_partition(open_.begin(), open_.end(), [&](const Prospect& p) { return p.expansion == expansions_; });
-    const auto best =
+        std::stable_partition(open_.begin(), hopeful, [&](const Prospect& p) { return p.expansion == expansions_; });
+    return taken(
         last == open_.begin()
-            ? std::min_element(last, open_.end(), [&](const auto& a, const auto& b) { return promise(a) < promise(b); })
-            : std::max_element(open_.begin(), last, [&](const auto& a, const auto& b) { return rate_of(a) < rate_of(b); });
-    Prospect out = std::move(*best);
-    open_.erase(best);
-    return out;
+            ? std::min_element(last, hopeful, [&](const auto& a, const auto& b) { return promise(a) < promise(b); })
+            : std::max_element(open_.begin(), last, [&](const auto& a, const auto& b) { return rate_of(a) < rate_of(b); }));
   }
 
   /// One cut more, at each of these places and of those that have saved something before.
@@ -174,10 +177,10 @@ class Frontier {
       const CutPlace& place = places[k];
       Trial trial{.cuts = present.cuts, .growth = present.growth + trials_.growth_of(place)};
       trial.cuts.push_back(place);
-      if (has(present.cuts, place) || trial.growth > most_growth) continue;
+      if (has(present.cuts, place) || trial.growth > kRoughly * most_growth) continue;
       const double before = likely_excess(present);
       const double less_strain = strains.with[k] ? strains.present - *strains.with[k] : 0;
-      foresee({std::move(trial), before, savings_.foresee(place, less_strain, before), squeezed, less_strain});
+      foresee({std::move(trial), before, present.growth, savings_.foresee(place, less_strain, before), squeezed, less_strain});
     }
   }
 
@@ -187,7 +190,8 @@ class Frontier {
       Trial trial{.cuts = present.cuts, .growth = present.growth - trials_.growth_of(present.cuts[k])};
       trial.cuts.erase(trial.cuts.begin() + static_cast<std::ptrdiff_t>(k));
       const double before = likely_excess(present);
-      foresee({std::move(trial), before, -kRemoved * std::max(kLeastGain, savings_.foresee(present.cuts[k], 0, before))});
+      const double lost = kRemoved * std::max(kLeastGain, savings_.foresee(present.cuts[k], 0, before));
+      foresee({std::move(trial), before, 0, -lost});
     }
   }
 
@@ -196,12 +200,10 @@ class Frontier {
     prospect.is_forecast = true;
     const double gain = gain_of(prospect);
     if (prospect.gain >= 0) {
-      const CutPlace& last = prospect.trial.cuts.back();
-      savings_.learn(last, prospect.before, prospect.less_strain, prospect.gain, gain);
+      savings_.learn(prospect.trial.cuts.back(), prospect.before, prospect.less_strain, prospect.gain, gain);
       if (gain < kLeastGain) return;
-      const double growth = trials_.growth_of(last);
-      best_rate_ = std::max(best_rate_, gain / (growth + kShortest));
-      least_growth_ = std::min(least_growth_, growth);
+      best_rate_ = std::max(best_rate_, gain / (prospect.growth() + kShortest));
+      least_growth_ = std::min(least_growth_, prospect.growth());
     } else if (!is_near(prospect.trial)) {
       return;
     }
@@ -217,7 +219,24 @@ class Frontier {
   /// Saved for the growth of the last cut; beyond the limit nothing is worth any.
   double rate_of(const Prospect& prospect) const {
     const double gain = std::min(gain_of(prospect), prospect.before - limit_);
-    return gain / (trials_.growth_of(prospect.trial.cuts.back()) + kShortest);
+    return gain / (prospect.growth() + kShortest);
+  }
+
+  Prospect taken(std::vector<Prospect>::iterator at) {
+    Prospect out = std::move(*at);
+    open_.erase(at);
+    return out;
+  }
+
+  /// What is foreseen is rough: what needs much less boundary may do more than that.
+  std::optional<Prospect> surprising(double enough) {
+    auto best = open_.end();
+    for (auto p = open_.begin(); p != open_.end(); ++p) {
+      const bool may = !p->is_forecast && p->gain >= 0 && p->trial.growth < kMuchLess * enough;
+      if (may && (best == open_.end() || rate_of(*p) > rate_of(*best))) best = p;
+    }
+    if (best == open_.end()) return std::nullopt;
+    return taken(best);
   }
 
   /// The growth with which a set will keep the limit: further cuts save half as much for their length as the best so far, and are

@@ -146,7 +146,9 @@ Untangled untangle_rings(const Mending& mending) {
 }
 
 /// From there on with the misshapen triangles counting less and less, as far as the good ones need it to keep their shapes.
+/// Charts that are going to be deformed keep none: they had better start with room for every triangle.
 Untangled yielding(const Mending& mending, Untangled best) {
+  if (mending.may_overlap) return best;
   for (const double share : kLesserShares) {
     if (!best.chart || best.loss <= kShapesKept) break;
     Tangle tangle = tangle_within(mending, best.rings, share);
