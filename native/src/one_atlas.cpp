@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "atlas_refine/error.h"
-#include "cut_as_needed.h"
 #include "input/check_atlas.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
+#include "needed/cut_as_needed.h"
 #include "rectangles.h"
 #include "reduce/goal.h"
 #include "report/certify.h"

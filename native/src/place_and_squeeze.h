@@ -18,9 +18,6 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
 /// where they do not reach the bound.
 std::optional<Solution> place_and_squeeze_cut(const Refinement& run, const CutAtlas& cut, const ProgressRange& range);
 
-/// They reach the bound times `spare`, within the largest distortion allowed.
-bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare = 1);
-
 /// E_d that these pieces would have at the bound, roughly; nothing where that is above `most`.
 std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas& atlas, bool keeps_place, double most);
 

@@ -1,5 +1,5 @@
 // The best of trials, and those that no other dominates.
-#include "cut_outcomes.h"
+#include "needed/cut_outcomes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "cut_trials.h"
+#include "needed/cut_trials.h"
 
 namespace atlas_refine {
 

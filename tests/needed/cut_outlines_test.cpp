@@ -1,5 +1,5 @@
 // What pieces are likely to lose, told by their outlines.
-#include "cut_outlines.h"
+#include "needed/cut_outlines.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Without a limit: the cuts that promise most are squeezed, and others forecast from there.
-#include "cut_as_needed.h"
+#include "needed/cut_as_needed.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <deque>
 #include <limits>
 
-#include "cut_outcomes.h"
-#include "cut_to_limit.h"
+#include "needed/cut_outcomes.h"
+#include "needed/cut_to_limit.h"
 
 namespace atlas_refine {
 namespace {

@@ -1,5 +1,5 @@
 // Parts of charts that overlapped themselves have the shapes back that these came with.
-#include "cut_shapes.h"
+#include "needed/cut_shapes.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cut_shapes.h"
+#include "needed/cut_shapes.h"
 #include "reduce/squeeze.h"
 #include "report/solution.h"
 #include "seams/cut_places.h"

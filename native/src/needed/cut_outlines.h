@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "atlas_refine/options.h"
-#include "cut_shapes.h"
+#include "needed/cut_shapes.h"
 #include "seams/chart_cuts.h"
 
 namespace atlas_refine {

@@ -1,5 +1,5 @@
 // Loops of the border divided by a chord, thinned out, packed roughly.
-#include "cut_outlines.h"
+#include "needed/cut_outlines.h"
 
 #include <algorithm>
 #include <cmath>

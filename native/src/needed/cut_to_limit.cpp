@@ -2,7 +2,7 @@
 // outlines that it leaves, or from what is near a way to a point inside, so that many are looked at and only few forecast; only
 // what is forecast to keep the limit is squeezed to the end. Once the limit is kept the search goes back to what may need less
 // boundary.
-#include "cut_to_limit.h"
+#include "needed/cut_to_limit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,6 +139,12 @@ class Savings {
   double near_ = 0, relaxed_ = 0, foreseen_ = 0, came_ = 0, strain_ = 0, for_strain_ = 0;
 };
 
+Prospect taken_from(std::vector<Prospect>& prospects, std::vector<Prospect>::iterator at) {
+  Prospect out = std::move(*at);
+  prospects.erase(at);
+  return out;
+}
+
 /// Sets that the search may go on with, and which of them first.
 class Frontier {
  public:
@@ -162,7 +168,8 @@ class Frontier {
     if (hopeful == open_.begin()) return surprising(enough);
     const auto last =
         std::stable_partition(open_.begin(), hopeful, [&](const Prospect& p) { return p.expansion == expansions_; });
-    return taken(
+    return taken_from(
+        open_,
         last == open_.begin()
             ? std::min_element(last, hopeful, [&](const auto& a, const auto& b) { return promise(a) < promise(b); })
             : std::max_element(open_.begin(), last, [&](const auto& a, const auto& b) { return rate_of(a) < rate_of(b); }));
@@ -222,12 +229,6 @@ class Frontier {
     return gain / (prospect.growth() + kShortest);
   }
 
-  Prospect taken(std::vector<Prospect>::iterator at) {
-    Prospect out = std::move(*at);
-    open_.erase(at);
-    return out;
-  }
-
   /// What is foreseen is rough: what needs much less boundary may do more than that.
   std::optional<Prospect> surprising(double enough) {
     auto best = open_.end();
@@ -236,7 +237,7 @@ class Frontier {
       if (may && (best == open_.end() || rate_of(*p) > rate_of(*best))) best = p;
     }
     if (best == open_.end()) return std::nullopt;
-    return taken(best);
+    return taken_from(open_, best);
   }
 
   /// The growth with which a set will keep the limit: further cuts save half as much for their length as the best so far, and are

@@ -1,5 +1,5 @@
 // UVs of the input found by what the vertices stand for; losses summed up in cells.
-#include "cut_shapes.h"
+#include "needed/cut_shapes.h"
 
 #include <algorithm>
 #include <cmath>

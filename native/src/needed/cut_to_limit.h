@@ -1,7 +1,7 @@
 // The least seams with which the largest distortion is kept.
 #pragma once
 
-#include "cut_outcomes.h"
+#include "needed/cut_outcomes.h"
 
 namespace atlas_refine {
 

@@ -1,17 +1,18 @@
 // Cuts made one after the other, pieces placed anew, squeezed.
-#include "cut_trials.h"
+#include "needed/cut_trials.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "cut_outlines.h"
 #include "geometry/boundary.h"
 #include "geometry/rest_triangle.h"
 #include "input/price_sides.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
+#include "needed/cut_outlines.h"
 #include "place_and_squeeze.h"
+#include "placing.h"
 #include "rectangles.h"
 #include "reduce/goal.h"
 #include "reduce/reduce.h"
