@@ -1,4 +1,4 @@
-"""Two programs compared file by file: both run one after the other on each, and the checker measures what they wrote."""
+"""Two programs compared file by file: both run in turn on each, three times, and the checker measures what they wrote."""
 
 import math
 import statistics
@@ -6,9 +6,10 @@ import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from measure_file import Row, measure_run
+from measure_file import Row, measure_run, refine
 
 WORSE = 0.0005  # of E_d: less is no difference
+REPEATS = 3  # of each program on each file: the median of its times counts
 
 
 @dataclass(frozen=True)
@@ -58,19 +59,20 @@ class Pair:
 
 def compare_file(programs, folder, mesh, goals):
     """One pair per goal."""
+    sides = (("old", programs.old, programs.old_options), ("new", programs.new, programs.new_options))
     pairs = []
     with tempfile.TemporaryDirectory(prefix="atlas-refine-bench-") as scratch:
         for goal in goals:
-            rows = [
-                measure_run(program, folder, mesh, Path(scratch) / f"{side}.obj", replace(goal, options=goal.options + options))[
-                    0
-                ]
-                for side, program, options in (
-                    ("old", programs.old, programs.old_options),
-                    ("new", programs.new, programs.new_options),
-                )
+            runs = [
+                (program, Path(scratch) / f"{side}.obj", replace(goal, options=goal.options + options))
+                for side, program, options in sides
             ]
-            pairs.append(Pair(*rows))
+            rows = [measure_run(program, folder, mesh, output, own)[0] for program, output, own in runs]
+            times = [[row.cpu_seconds] for row in rows]
+            for _ in range(REPEATS - 1):
+                for (program, output, own), seconds in zip(runs, times, strict=True):
+                    seconds.append(refine(program, mesh, output, own).cpu_seconds)
+            pairs.append(Pair(*(replace(r, cpu_seconds=statistics.median(t)) for r, t in zip(rows, times, strict=True))))
     return pairs
 
 
@@ -96,7 +98,7 @@ COLUMNS = (
     ("reason", lambda p: "; ".join(f"{name}: {r.reason}" for name, r in (("old", p.old), ("new", p.new)) if r.reason), ""),
 )
 NOTES = """old, new: the commit compared against, this tree. E_d: as the checker measures it. BL+: seams added / seams before, per cent. cpu: processor seconds
-of the whole process, files included, one thread, both programs one after the other; ratio: new / old."""
+of the whole process, files included, one thread, the median of three runs of both programs in turn; ratio: new / old."""
 
 
 def header():
