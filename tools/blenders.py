@@ -7,7 +7,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 #: Official builds. One is enough for every day; the others are for --all-blenders. The last needs a Python 3.13.
 EVERY_DAY = ["4.5.15"]
@@ -37,6 +37,7 @@ class Module:
 
     version: str
     base_python: str = "/usr/bin/python3"
+    numpy: str = "numpy<2"  # as in the official builds with Python 3.11; the wheel of 4.2 leaves it open
     python: str = ""
 
     @property
@@ -54,9 +55,9 @@ class Module:
             print(f"installing {self.name} from PyPI, some 350 MB", flush=True)
             shutil.rmtree(folder, ignore_errors=True)
             subprocess.run([self.base_python, "-m", "venv", folder], check=True)
-            subprocess.run([python, "-m", "pip", "install", "-q", f"bpy=={self.version}"], check=True)
+            subprocess.run([python, "-m", "pip", "install", "-q", f"bpy=={self.version}", self.numpy], check=True)
             done.touch()
-        return Module(self.version, self.base_python, str(python))
+        return replace(self, python=str(python))
 
     def script(self, path):
         return [self.python, path, "--"]
@@ -81,7 +82,7 @@ def official(every):
     modules = [Module(version) for version in EVERY_DAY]
     if every:
         modules += [Module(version) for version in OTHERS]
-        modules += [Module(version, base_python=python("3.13")) for version in ON_PYTHON_3_13]
+        modules += [Module(version, base_python=python("3.13"), numpy="numpy") for version in ON_PYTHON_3_13]
     return modules
 
 
