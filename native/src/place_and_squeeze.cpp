@@ -7,7 +7,6 @@
 #include "atlas_refine/error.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
-#include "pack/place_charts.h"
 #include "placing.h"
 #include "reduce/goal.h"
 #include "reduce/squeeze.h"
@@ -196,12 +195,12 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
   PlacedCharts& placed = placing.placed;
   if (const Validity valid = certify_charts(placed.charts, points, freedom); !valid.valid())
     throw RefineError(ErrorCode::BadInput, "pack", "charts could not be placed apart: " + valid.problem, valid.chart, valid.face);
-  if (holds_bound(run, placed, kRounding) && part_slits(run, placed, points, freedom, pieces))
+  if (holds_bound(run, placed, kStoredSpare) && part_slits(run, placed, points, freedom, pieces))
     placing = place_with(run, pieces, freedom, good_enough, gaps);
   run.journal.show("placed", placed.charts);
   Solution out{.atlas = with_uvs(atlas, uvs_of(placed.charts)), .gap = placing.gap};
   out.atlas.frame = placed.frame;
-  if (holds_bound(run, placed, kRounding) && !(options.relax && !none_bends(freedom))) {
+  if (holds_bound(run, placed, kStoredSpare) && !(options.relax && !none_bends(freedom))) {
     const bool spares_bending = !none_bends(freedom) && out.gap.value < gaps.front().value;
     warn_of_gap(run, out.gap, spares_bending ? "with a larger one charts would have to be bent" : kNoRoom);
     return out;
@@ -270,7 +269,7 @@ std::optional<Forecast> forecast_anew(const Refinement& run, const CutAtlas& atl
   const std::vector<Chart> pieces = meshes_of(atlas);
   const std::vector<Gap> gaps = gaps_of(run, pieces, freedom, kMostTakenBent);
   const auto placer = [&](const std::vector<Chart>& charts) {
-    return place(run, charts, freedom, gaps.front(), kNearly * run.options.pe_bound, true);
+    return place(run, charts, freedom, gaps.front(), kNearly * run.options.pe_bound, PackSearch::Quick);
   };
   Forecast out = forecast_squeeze(pieces, goal_of(run.input.set.charts, atlas, run.options), placer,
                                   squeeze_options(run, freedom, gaps), run.monitor);

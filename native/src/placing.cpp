@@ -7,7 +7,6 @@
 #include "atlas_refine/error.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
-#include "pack/place_charts.h"
 #include "reduce/squeeze.h"
 #include "report/locked.h"
 #include "report/texture.h"
@@ -33,8 +32,7 @@ double taken(const Refinement& run, const std::vector<Chart>& charts, const Gap&
   return pe * (1 + 0.5 * gap.length(sides_of_area(box, run.options.box_aspect)) * uv_perimeter(charts) / uv_area(charts));
 }
 
-/// More than any placement of thousands of charts takes of its box: seven such atlases, of 1000 to 20,000 charts, took 0.82 to
-/// 0.89.
+/// More than the packer fills of a box with thousands of charts.
 bool takes_too_much(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap) {
   constexpr double kMostTaken = 0.9;
   return !none_bends(freedom) && !any_fixed(freedom) && taken(run, charts, gap, run.options.pe_bound) > kMostTaken;
@@ -81,13 +79,13 @@ bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare
 bool rather_moves(const Refinement& run, std::size_t charts) { return charts >= kThousands && !run.options.relax; }
 
 PlacedCharts place(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap,
-                   double good_enough, bool quick) {
+                   double good_enough, PackSearch search) {
   const PlaceOptions options{.gap = gap,
                              .box_aspect = run.options.box_aspect,
                              .target_pe = good_enough,
                              .seed = run.options.seed,
                              .threads = run.threads,
-                             .quick = quick,
+                             .search = search,
                              .rotate = run.options.rotate,
                              .align_axes = run.options.align_axes};
   if (!any_fixed(freedom)) return {.charts = place_charts(charts, options, run.monitor)};
@@ -120,18 +118,18 @@ Placing place_with(const Refinement& run, const std::vector<Chart>& charts, cons
   std::size_t k = 0;
   while (rather_move && k + 1 < tries && takes_too_much(run, charts, freedom, gaps[k])) ++k;
   const Placing first{place(run, charts, freedom, gaps[k], good_enough), gaps[k]};
-  if (holds_bound(run, first.placed, kRounding)) return first;
+  if (holds_bound(run, first.placed, kStoredSpare)) return first;
   while (++k < tries && !run.monitor.finishing()) {
     if (likely_pe(run, first.placed, freedom, first.gap, gaps[k]) < kPromising * run.options.pe_bound) continue;
     PlacedCharts closer = place(run, charts, freedom, gaps[k], run.options.pe_bound);
-    if (holds_bound(run, closer, kRounding)) return {std::move(closer), gaps[k]};
+    if (holds_bound(run, closer, kStoredSpare)) return {std::move(closer), gaps[k]};
   }
   return first;
 }
 
 std::vector<Gap> gaps_to_squeeze_with(const Refinement& run, const std::vector<Chart>& pieces, const Freedoms& freedom,
                                       const Placing& placing, std::vector<Gap> gaps) {
-  if (holds_bound(run, placing.placed, kRounding)) {
+  if (holds_bound(run, placing.placed, kStoredSpare)) {
     std::erase_if(gaps, [&](const Gap& gap) { return gap.value > placing.gap.value; });
     return gaps;
   }

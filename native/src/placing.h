@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "geometry/freedom.h"
+#include "pack/place_charts.h"
 #include "report/solution.h"
 
 namespace atlas_refine {
 
-constexpr double kRounding = 1 + 1e-6;  ///< times the bound: storing single precision must not lose it
+inline constexpr double kStoredSpare = 1 + 1e-6;  ///< times the bound: storing single precision must not lose it
 
 /// Where charts lie, and the gap that was left between them.
 struct Placing {
@@ -30,7 +31,7 @@ bool rather_moves(const Refinement& run, std::size_t charts);
 /// `good_enough`: the PE at which no better one is looked for. Throws RefineError(BoundNotReached) where locked charts leave the
 /// others no room.
 PlacedCharts place(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap,
-                   double good_enough, bool quick = false);
+                   double good_enough, PackSearch search = PackSearch::Thorough);
 
 /// The gap that was asked for, or those that may be, the largest first. `most_taken`: of the box, with half the gap around
 /// charts.

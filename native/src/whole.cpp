@@ -8,15 +8,11 @@
 #include "report/note_repairs.h"
 
 namespace atlas_refine {
-namespace {
 
-/// True where the relative scales of the charts changed.
 bool set_wanted_density(const Refinement& run, std::vector<Chart>& charts) {
   const Density density = run.options.density;
   return set_density(charts, wanted_density(run.input.set.charts, density), density, freedom_of(run.input.set, run.options));
 }
-
-}  // namespace
 
 WholeCharts whole_charts(const Refinement& run, const ProgressRange& range) {
   run.journal.begin_stage("repair", range);

@@ -7,6 +7,10 @@
 
 namespace atlas_refine {
 
+/// Scales the charts of the input, mended or not, to the density that is asked for. True where that changed their relative
+/// scales.
+bool set_wanted_density(const Refinement& run, std::vector<Chart>& charts);
+
 /// The charts of the input, free of flips and crossings, at their wanted densities.
 struct WholeCharts {
   CutAtlas atlas;            ///< a piece each, seams where one was opened

@@ -103,22 +103,47 @@ class Division:
             every = len(corners) <= SIDES_TRIED
             fan = ((0, k, k + 1) for k in range(1, len(corners) - 1))
             triangles = itertools.combinations(range(len(corners)), 3) if every else fan
-            near = NEAR * self.size[face] + 1e-14 * self.far
-            self.on[vertex, face] = any(distance_to_triangle(p, *corners[list(t)]) <= near for t in triangles)
+            self.on[vertex, face] = any(distance_to_triangle(p, *corners[list(t)]) <= self.near(face) for t in triangles)
         return self.on[vertex, face]
 
+    def near(self, face):
+        return NEAR * self.size[face] + 1e-14 * self.far
 
-def open_length(obj, by_index=False):
-    """Length of the edges that one face only has; vertices of equal position are taken for one, but not where they count by index."""
+
+def open_edges(obj, by_index=False):
+    """(first corners of the edges that one face only has, the corner after each corner); vertices of equal position are taken for one,
+    but not where they count by index."""
     place = np.unique(obj.positions + 0.0, axis=0, return_inverse=True)[1].reshape(-1)[obj.corner_vertex]
     place = obj.corner_vertex if by_index else place
     following = np.arange(len(place)) + 1
     following[obj.offsets[1:] - 1] = obj.offsets[:-1]
     edges = np.sort(np.stack([place, place[following]], axis=1), axis=1)
     first, count = np.unique(edges, axis=0, return_index=True, return_counts=True)[1:]
-    alone = first[count == 1]
+    return first[count == 1], following
+
+
+def open_length(obj, by_index=False):
+    alone, following = open_edges(obj, by_index)
     p = obj.positions[obj.corner_vertex]
     return float(np.linalg.norm(p[following[alone]] - p[alone], axis=1).sum())
+
+
+def opened_length(before, after, division):
+    """Length of the open edges that lie along no edge of their face that was open before."""
+    were_open, sides = {}, open_edges(before)
+    p = before.positions[before.corner_vertex]
+    face_of = np.repeat(np.arange(before.faces), np.diff(before.offsets))
+    for c in sides[0].tolist():
+        were_open.setdefault(int(face_of[c]), []).append((p[c], p[sides[1][c]]))
+    alone, following = open_edges(after)
+    p, source = after.positions[after.corner_vertex], np.repeat(division.sources, np.diff(after.offsets))
+    opened = 0.0
+    for c in alone.tolist():
+        ends, face = (p[c], p[following[c]]), int(source[c])
+        near = division.near(face)
+        along = any(all(distance_to_segment(end, *edge) <= near for end in ends) for edge in were_open.get(face, ()))
+        opened += 0.0 if along else float(np.linalg.norm(ends[1] - ends[0]))
+    return opened
 
 
 def kept_normals(before, after, sources):
@@ -153,8 +178,7 @@ def divided(before, after):
         problems.append("file: a part of a face stands in another group, material or smoothing group")
     if not kept_normals(before, after, sources):
         problems.append("file: normals of corners differ")
-    # It may become less: a new vertex of a long edge can meet one of two shorter ones that lie along it.
-    opened = open_length(after) - open_length(before)
+    opened = opened_length(before, after, division)
     if opened > NEAR * float(division.size.sum()):
         problems.append(f"surface: edges of length {opened:.3g} are open that were not")
     # Faces that share an edge share its new vertices too, or it is open for whoever reads the file.

@@ -134,6 +134,19 @@ def test_long_edge_divided_where_shorter_ones_meet_that_lie_along_it(tmp_path):
     assert problems(tmp_path, after + below, before + "f 1/1 2/2 3/3\n" + below) == ""
 
 
+def test_what_closes_elsewhere_hides_no_crack(tmp_path):
+    """Beside such an edge, which closes, two squares whose common edge is divided in one of them only."""
+    before = "v 0 0 0\nv 2 0 0\nv 1 1 0\nv 1 0 0\nv 0.5 -1 0\nv 1.5 -1 0\nv 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nv 7 0 0\nv 7 1 0\n"
+    before += "vt 0 0\nvt 0.2 0\nvt 0.1 0.1\nvt 0.5 0.5\nvt 0.55 0.4\nvt 0.6 0.5\nvt 0.75 0.4\nvt 0.8 0.5\nvt 0.7 0.5\n"
+    before += "vt 0 0.8\nvt 0.1 0.8\nvt 0.1 0.9\nvt 0 0.9\nvt 0.3 0.8\nvt 0.4 0.8\nvt 0.4 0.9\nvt 0.3 0.9\n"
+    below = "f 1/4 5/5 4/6\nf 4/9 6/7 2/8\n"
+    right = "f 8/14 11/15 12/16 9/17\n"
+    whole = before + "f 1/1 2/2 3/3\n" + below + "f 7/10 8/11 9/12 10/13\n" + right
+    cracked = before + "v 1 0 0\nvt 0.1 0\nv 6 0.5 0\nvt 0.1 0.85\nf 1/1 13/18 3/3\nf 13/18 2/2 3/3\n" + below
+    cracked += "f 7/10 8/11 14/19 10/13\nf 14/19 9/12 10/13\n" + right
+    assert "edges of length 2 are open" in problems(tmp_path, cracked, whole)
+
+
 def test_part_in_another_group(tmp_path):
     moved = APART.replace("g two\nusemtl other\n", "").replace("f 1/1/1 7/9", "g two\nusemtl other\nf 1/1/1 7/9")
     assert "another group" in problems(tmp_path, moved)

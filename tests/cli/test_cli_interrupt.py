@@ -15,7 +15,7 @@ from obj_shapes import arc
 def long_job(tmp_path):
     """A chart large enough to keep the program busy for seconds."""
     path = tmp_path / "in.obj"
-    path.write_text(arc(200))
+    path.write_text(arc(400))
     (tmp_path / "out.obj").write_text("the old file")
     return [path, "-o", tmp_path / "out.obj", "--pe-bound", "0.95", "--report", tmp_path / "r.json", "--threads", "1"]
 

@@ -8,7 +8,7 @@
 #include "geometry/freedom.h"
 #include "geometry/plane.h"
 #include "measure/distortion.h"
-#include "support/median.h"
+#include "support/quantile.h"
 
 namespace atlas_refine {
 namespace {

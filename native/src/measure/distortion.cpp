@@ -8,6 +8,7 @@
 
 #include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
+#include "solve/symmetric_dirichlet.h"
 
 namespace atlas_refine {
 
@@ -97,6 +98,17 @@ std::vector<double> triangle_stretch(const Chart& chart, double scale) {
     stretch[t] = s2 > 0 ? std::max(s1, 1 / s2) : std::numeric_limits<double>::infinity();
   }
   return stretch;
+}
+
+std::vector<double> triangle_losses(const Chart& chart, double scale) {
+  std::vector<double> losses;
+  losses.reserve(chart.triangles.size());
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    const auto [a, b, c] = chart.triangles[t];
+    const Mat2 j = scale * jacobian(chart.surface[t].inverse_edges, chart.uvs[a], chart.uvs[b], chart.uvs[c]);
+    losses.push_back(chart.surface[t].area * (symmetric_dirichlet(j) - 1));
+  }
+  return losses;
 }
 
 double uv_area(const Chart& chart) {

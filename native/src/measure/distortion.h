@@ -31,6 +31,9 @@ DirichletSums dirichlet_sums_between(const std::vector<Chart>& from, const std::
 /// max(s1, 1 / s2) of every triangle's Jacobian (rest -> UV) times `scale`.
 std::vector<double> triangle_stretch(const Chart& chart, double scale);
 
+/// area * (E_d - 1) of every triangle, its UVs times `scale`.
+std::vector<double> triangle_losses(const Chart& chart, double scale);
+
 /// Sum of UV triangle areas.
 double uv_area(const Chart& chart);
 double uv_area(const std::vector<Chart>& charts);

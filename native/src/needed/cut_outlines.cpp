@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kSpacing = 0.01;  // of the root of all area: of vertices nearer to each other one is enough
 constexpr double kLikelyPe = 0.6;  // what the gap is guessed by
-// E_d that charts lose for what the box of the unbent charts is larger than the bound asks, as a fraction: .035 to .055.
+// E_d that charts lose for what the box of the unbent charts is larger than the bound asks, as a fraction: a first guess, of
+// which forecasts tell more.
 constexpr double kBoxPrice = 0.045;
 
 using Loops = std::vector<OutlineLoop>;
@@ -148,8 +149,7 @@ double CutOutlines::strain(const std::vector<Loops>& charts) const {
                          .target_pe = options_.pe_bound,
                          .seed = options_.seed,
                          .threads = 1,
-                         .quick = true,
-                         .rough = true};
+                         .search = PackSearch::Rough};
   const double pe = pack_charts(pieces.outlines, pieces.areas, pack).pe;
   return kBoxPrice * std::max(0.0, options_.pe_bound / pe - 1) + std::max(0.0, pieces.bent);
 }

@@ -7,31 +7,19 @@
 #include "geometry/guards.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
-#include "solve/symmetric_dirichlet.h"
 
 namespace atlas_refine {
 namespace {
 
 constexpr int kCells = 24;  // along a chart: losses are told so finely
 
-/// Per triangle, times its area.
-std::vector<double> losses_of(const Chart& chart) {
-  const double scale = dirichlet_sums({chart}).best_scale();
-  std::vector<double> out;
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    const auto [a, b, c] = chart.triangles[t];
-    const Mat2 j = scale * jacobian(chart.surface[t].inverse_edges, chart.uvs[a], chart.uvs[b], chart.uvs[c]);
-    out.push_back(chart.surface[t].area * (symmetric_dirichlet(j) - 1));
-  }
-  return out;
-}
-
 /// What a chart has lost on its way from `before`, divided by `area`; of triangles that had a shape.
 std::vector<Loss> bent(const Chart& before, const Chart& after, double area) {
   const Box box = box_of_points(after.uvs);
   std::vector<Loss> cells(kCells * kCells, {Vec2::Zero(), 0});
   std::vector<double> areas(cells.size(), 0);
-  const std::vector<double> lost_before = losses_of(before), lost_after = losses_of(after);
+  const std::vector<double> lost_before = triangle_losses(before, dirichlet_sums(before).best_scale());
+  const std::vector<double> lost_after = triangle_losses(after, dirichlet_sums(after).best_scale());
   for (std::size_t t = 0; t < after.triangles.size(); ++t) {
     const auto [a, b, c] = after.triangles[t];
     const Vec2 middle = (after.uvs[a] + after.uvs[b] + after.uvs[c]) / 3;

@@ -40,11 +40,11 @@ struct Budget {
 Budget budget_of(Effort effort) {
   switch (effort) {
     case Effort::Fast:
-      return {20, 8, 2, 3, 8, 20, 10};
+      return {.first_places = 20, .places = 8, .tips = 2, .first = 3, .improving = 8, .forecasts = 20, .squeezes = 10};
     case Effort::Normal:
-      return {30, 14, 4, 4, 14, 32, 16};
+      return {.first_places = 30, .places = 14, .tips = 4, .first = 4, .improving = 14, .forecasts = 32, .squeezes = 16};
     case Effort::Best:
-      return {60, 40, 8, 8, 100, 160, 60};
+      return {.first_places = 60, .places = 40, .tips = 8, .first = 8, .improving = 100, .forecasts = 160, .squeezes = 60};
   }
   return {};
 }

@@ -19,8 +19,8 @@
 #include "repair/part_touching.h"
 #include "report/locked.h"
 #include "seams/lay_apart.h"
-#include "solve/symmetric_dirichlet.h"
 #include "support/parallel.h"
+#include "support/quantile.h"
 
 namespace atlas_refine {
 namespace {
@@ -38,21 +38,8 @@ bool part_along_cuts(const std::vector<ChartCuts>& charts, CutAtlas& atlas) {
 
 std::vector<Chart> charts_at_density(const Refinement& run) {
   std::vector<Chart> charts = run.input.set.charts;
-  const Density density = run.options.density;
-  set_density(charts, wanted_density(charts, density), density, freedom_of(run.input.set, run.options));
+  set_wanted_density(run, charts);
   return charts;
-}
-
-/// Once there are cuts most others change next to nothing: what they come to tells more than one rough packing without any.
-double upper_quartile(const std::vector<std::optional<double>>& values) {
-  std::vector<double> known;
-  for (const auto& value : values) {
-    if (value) known.push_back(*value);
-  }
-  if (known.empty()) return std::numeric_limits<double>::infinity();
-  const auto at = known.begin() + static_cast<std::ptrdiff_t>(3 * known.size() / 4);
-  std::nth_element(known.begin(), at, known.end());
-  return *at;
 }
 
 }  // namespace
@@ -243,13 +230,11 @@ std::vector<std::vector<Loss>> CutTrials::losses(const CutAtlas& atlas, const So
   const double scale = dirichlet_sums(meshes_of(solution.atlas)).best_scale();
   for (std::size_t p = 0; p < atlas.pieces.size(); ++p) {
     const Piece& piece = atlas.pieces[p];
-    const Chart& before = piece.mesh;
-    const std::vector<Vec2>& after = solution.atlas.pieces[p].mesh.uvs;
-    for (std::size_t t = 0; t < before.triangles.size(); ++t) {
-      const auto [a, b, c] = before.triangles[t];
-      const Mat2 j = scale * jacobian(before.surface[t].inverse_edges, after[a], after[b], after[c]);
-      const double amount = before.surface[t].area * (symmetric_dirichlet(j) - 1) / area_;
-      out[piece.chart].push_back({(place_before(piece, a) + place_before(piece, b) + place_before(piece, c)) / 3, amount});
+    const std::vector<double> lost = triangle_losses(solution.atlas.pieces[p].mesh, scale);
+    for (std::size_t t = 0; t < lost.size(); ++t) {
+      const auto [a, b, c] = piece.mesh.triangles[t];
+      out[piece.chart].push_back(
+          {(place_before(piece, a) + place_before(piece, b) + place_before(piece, c)) / 3, lost[t] / area_});
     }
   }
   return out;
@@ -282,7 +267,12 @@ Strains CutTrials::strains(const Trial& present, const std::vector<CutPlace>& pl
   parallel_ranges(static_cast<int>(places.size()), run_.threads, 1, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) out.with[k] = outlines.strain_with(places[k]);
   });
-  if (!present.cuts.empty()) out.present = std::min(out.present, upper_quartile(out.with));
+  // Once there are cuts most others change next to nothing: what they come to tells more than one rough packing without any.
+  std::vector<double> told;
+  for (const auto& with : out.with) {
+    if (with) told.push_back(*with);
+  }
+  if (!present.cuts.empty() && !told.empty()) out.present = std::min(out.present, quantile(std::move(told), 0.75));
   return out;
 }
 

@@ -53,6 +53,10 @@ struct Grid {
   std::vector<GridChart> charts;
 };
 
+double least_cells(PackSearch search) {
+  return search == PackSearch::Thorough ? kCells : search == PackSearch::Quick ? kQuickCells : kRoughCells;
+}
+
 Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options, Watch& watch) {
   const int n = static_cast<int>(outlines.size());
   double dilated_area = area, longest = 0;
@@ -62,14 +66,14 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
   }
   Grid grid;
   const double cells = n > kTooManyToCompact ? kCellsOfTooMany : n > kManyCharts ? kCellsOfMany : kCells;
-  const double least = options.rough ? kRoughCells : options.quick ? kQuickCells : kCells;
+  const double least = least_cells(options.search);
   grid.cells_per_side = std::clamp(cells * std::sqrt(n / 60.0), least, kMostCells);
   grid.cell = std::max(std::sqrt(dilated_area / 0.8), longest / kLongestChart) / grid.cells_per_side;
   grid.charts.resize(n);
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       watch.poll(static_cast<double>(i - begin) / (end - begin));
-      for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : options.quick && !options.rough ? 4 : 2))
+      for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : options.search == PackSearch::Quick ? 4 : 2))
         grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options.gap, grid.cell));
     }
   });
@@ -118,7 +122,7 @@ std::vector<Placement> placements_of(const Grid& grid, const GridLayout& layout)
 }
 
 int starts_of(int charts, const PackOptions& options) {
-  if (options.rough) return kRoughStarts;
+  if (options.search == PackSearch::Rough) return kRoughStarts;
   if (charts > kTooManyToCompact) return 1;
   return charts > kManyCharts ? std::clamp(2000 / charts, 1, 8) : std::clamp(4000 / charts, 64, 400);
 }
@@ -146,8 +150,8 @@ class Search {
   std::vector<Placement> run() {
     const int n = static_cast<int>(outlines_.size());
     start_greedily(starts_of(n, options_));
-    if (!options_.rough && least_area_ > enough_ && n <= kTooManyToCompact) compact_best(1, 0.3, 0.4);
-    if (!options_.quick && least_area_ > enough_ && n <= kManyCharts) {
+    if (options_.search != PackSearch::Rough && least_area_ > enough_ && n <= kTooManyToCompact) compact_best(1, 0.3, 0.4);
+    if (options_.search == PackSearch::Thorough && least_area_ > enough_ && n <= kManyCharts) {
       shrink_best();
       if (least_area_ > enough_) compact_best(kFinalists, 0.9, 1);
     }

@@ -33,6 +33,12 @@ struct Placement {
   }
 };
 
+enum class PackSearch {
+  Thorough,
+  Quick,  ///< greedy placements only, rougher but more of them
+  Rough,  ///< few of those: to tell which of many atlases can be packed well
+};
+
 struct PackOptions {
   double gap = 0;         ///< smallest distance between two charts, absolute, in the
                           ///< outlines' units
@@ -40,9 +46,7 @@ struct PackOptions {
   double target_pe = 1;   ///< stop searching once sum(area) / box area reaches this
   std::uint64_t seed = 1;
   int threads = 1;
-  bool quick = false;                     ///< greedy placements only, rougher but more of them
-  bool rough = false;                     ///< of the quick ones only few: to tell which of many
-                                          ///< atlases can be packed well
+  PackSearch search = PackSearch::Thorough;
   std::function<void(double)> tick = {};  ///< called from the calling thread with
                                           ///< progress in [0, 1]; may throw to cancel
 };

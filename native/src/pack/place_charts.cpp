@@ -125,7 +125,7 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
                    .target_pe = options.target_pe,
                    .seed = options.seed,
                    .threads = options.threads,
-                   .quick = options.quick,
+                   .search = options.search,
                    .tick = [&](double fraction) { monitor.report(fraction); }};
   Packing packing = pack_charts(outlines, areas, pack);
   // A larger gap makes a larger box; a little more than asked each time ends this after one or two rounds.

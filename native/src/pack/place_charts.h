@@ -8,6 +8,7 @@
 
 #include "atlas_refine/options.h"
 #include "geometry/freedom.h"
+#include "pack/pack_charts.h"
 #include "support/monitor.h"
 
 namespace atlas_refine {
@@ -18,7 +19,7 @@ struct PlaceOptions {
   double target_pe = 1;  ///< good enough: stop searching there
   std::uint64_t seed = 1;
   int threads = 1;
-  bool quick = false;  ///< PackOptions::quick
+  PackSearch search = PackSearch::Thorough;
   Rotate rotate = Rotate::Any;
   bool align_axes = false;  ///< charts whose longest border runs straight get it onto an axis, unless rotate is None
 };

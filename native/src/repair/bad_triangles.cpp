@@ -9,7 +9,7 @@
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
 #include "geometry/rest_triangle.h"
-#include "support/median.h"
+#include "support/quantile.h"
 
 namespace atlas_refine {
 namespace {

@@ -114,10 +114,9 @@ std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int stra
   const auto add = [&](const CutPlace& place) {
     if (std::none_of(out.begin(), out.end(), [&](const CutPlace& other) { return same(other, place); })) out.push_back(place);
   };
-  const std::size_t most = straight;
   for (std::size_t k = 0; k < ranked.size(); ++k) {
-    if (out.size() < most) add(by_loss[k]);
-    if (out.size() < most) add(ranked[k]);
+    if (static_cast<int>(out.size()) < straight) add(by_loss[k]);
+    if (static_cast<int>(out.size()) < straight) add(ranked[k]);
   }
   for (const CutPlace& way : ways) add(way);
   return out;
