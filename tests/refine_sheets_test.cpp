@@ -76,6 +76,29 @@ TEST(Sheets, MirroredHalvesAreNoStack) {
   for (const ChartReport& chart : result.charts) EXPECT_EQ(chart.fate, Fate::Refined);
 }
 
+/// The L, its upper arm wound the other way round.
+Atlas l_shape_of_two_windings() {
+  const Atlas whole = l_shape();
+  Atlas atlas{whole.name, whole.positions, {0}, {}, {}};
+  for (int f = 0; f < whole.face_count(); ++f) add_double(atlas, whole, f, f >= 32);
+  return atlas;
+}
+
+// By itself, such a piece lies as its faces did in the input, and is no reason to withhold the result.
+TEST(Sheets, APieceOfFacesWoundTheOtherWayIsToldToBeMirrored) {
+  const Atlas atlas = l_shape_of_two_windings();
+  EXPECT_TRUE(validate(atlas).valid());
+  const RefineResult result = refine(
+      atlas, {.pe_bound = 0.9, .seams = Seams::Rectangles, .cut = Cut::Edges, .prefer_seam = {{36, 37}, {37, 38}, {38, 39}}});
+  ASSERT_EQ(result.intervention, Intervention::Cut);
+  const Validity validity = validate(testing::output(atlas, result));
+  EXPECT_EQ(validity.mirrored_charts, 1);
+  EXPECT_EQ(validity.flipped_faces + validity.crossings, 0);
+  const auto& warnings = result.warnings;
+  EXPECT_TRUE(
+      std::any_of(warnings.begin(), warnings.end(), [](const auto& w) { return w.starts_with("1 piece is mirrored: "); }));
+}
+
 TEST(Sheets, FrontAndBackAreTwoCharts) {
   for (const Atlas& atlas : {double_sided(5, 4), unwelded(double_sided(5, 4))}) {
     const RefineResult result = refine(atlas, {.stacks = Stacks::Separate});

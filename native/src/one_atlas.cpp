@@ -262,6 +262,14 @@ void warn_of_polygons(const CertifiedAtlas& result, Journal& journal) {
     journal.warnings.push_back(faces(result.worse_faces) + " no longer valid under every division that was valid in the input");
 }
 
+/// Pieces whose faces are all wound against the rest of their chart lie as these did in it; by themselves they are mirrored.
+void warn_of_mirrored(const CertifiedAtlas& result, Journal& journal) {
+  const int count = result.mirrored_pieces;
+  if (count > 0)
+    journal.warnings.push_back(std::to_string(count) + (count == 1 ? " piece is" : " pieces are") +
+                               " mirrored: the faces of the chart are wound both ways; make their normals agree first");
+}
+
 }  // namespace
 
 Outcome left_as_it_is(const InputAtlas& input, const RefineOptions& options, std::string reason) {
@@ -296,6 +304,7 @@ Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const 
   warn_of_early_end(result.solution, journal);
   warn_of_density(input, options, result.atlas.charts, journal);
   warn_of_polygons(result.atlas, journal);
+  warn_of_mirrored(result.atlas, journal);
   return outcome_of(input, options, std::move(result));
 }
 

@@ -239,6 +239,7 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
   const Freedoms freedom_after = freedom_of_output(set, faces.corners, freedom);
   excuse_fixed(set, freedom_after);
   require_valid(input, output, set, freedom_after, out.stored, cut);
+  out.mirrored_pieces = static_cast<int>(std::count(set.mirrored.begin(), set.mirrored.end(), true));
   stretch_to_texture(set.charts, options.box_aspect);
   out.after = measure_split(set, options.box_aspect);
   measure_in_texture(charts_as_placed(set), freedom_after, input.origin, options, out.after);

@@ -12,7 +12,8 @@ struct CertifiedAtlas {
   std::vector<std::vector<Vec2>> uvs;  ///< of each piece
   Measures after;                      ///< but for seams
   Triangulations triangulations;
-  int worse_faces = 0;  ///< faces of which a division that was positive in the input no longer is
+  int worse_faces = 0;      ///< faces of which a division that was positive in the input no longer is
+  int mirrored_pieces = 0;  ///< cut from charts whose faces are wound both ways
   std::vector<ChartReport> charts;
   std::vector<PieceReport> pieces;  ///< only where the atlas was cut
   std::vector<Chart> stored;        ///< the pieces in units of the texture, on their surfaces
