@@ -246,6 +246,27 @@ TEST(RefineEdges, EdgesThatAreNoVerticesAreRefused) {
   }
 }
 
+// From the corner of an L there are two ways across: each is taken where no seam is wanted along the other.
+TEST(RefineRectangles, TrailsKeepOffEdgesWithoutSeamsWhereOthersHoldTheBound) {
+  const Atlas atlas = testing::quads(testing::l_cells(4));
+  RefineOptions options = along_edges();
+  options.cut = Cut::Split;
+  for (const int axis : {0, 1}) {
+    const auto in_the_way = [&](int v) {
+      const Vec3& p = atlas.positions[v];
+      return p[axis] <= 3 && p[1 - axis] >= 3 && p[1 - axis] <= 5;
+    };
+    std::set<Edge> avoided;
+    for (const auto& [a, b] : whole_edges(atlas, atlas.corner_uvs)) {
+      if (in_the_way(a) && in_the_way(b)) avoided.insert({a, b});
+    }
+    options.no_seam = pairs(avoided);
+    const RefineResult result = refine(atlas, options);
+    EXPECT_EQ(result.intervention, Intervention::Cut);
+    EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
+  }
+}
+
 TEST(RefineRectangles, ATrailAcrossEdgesWithoutSeamsIsTold) {
   const Atlas atlas = testing::quads(testing::l_cells(4));
   RefineOptions options = along_edges();

@@ -136,7 +136,9 @@ CutPlan plan_cuts(const Refinement& run, const ProgressRange& range) {
   plan.atlas = with_uvs(std::move(repaired.atlas), uvs_of(plan.charts));
 
   run.journal.begin_stage("layout", range.part(0.78, 1));  // section 3.2
-  plan.layout = search_layout(plan.aligned, plan.charts, layout_options(run), run.monitor);
+  LayoutOptions layout = layout_options(run);
+  if (options.cut == Cut::Split) layout.prices = plan.prices;  // along edges, paths beside the trails find their own way
+  plan.layout = search_layout(plan.aligned, plan.charts, layout, run.monitor);
   refer_to_input(plan.atlas, plan.aligned);
   return plan;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "geometry/plane.h"
@@ -14,6 +15,38 @@ namespace atlas_refine {
 namespace {
 
 constexpr double kApart = 1e-4;  // extra corners keep so far from all lines, as a fraction of the boundary
+
+constexpr double kAvoided = 20;  // times as long counts what runs where no seam is wanted
+
+/// The edges of a chart where no seam is wanted.
+class AvoidedEdges {
+ public:
+  AvoidedEdges(const Chart& chart, const SidePrices& prices) {
+    for (std::size_t t = 0; t < prices.size(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        if (prices[t][k] == kNoSeam) edges_.insert(std::minmax(chart.triangles[t][k], chart.triangles[t][(k + 1) % 3]));
+      }
+    }
+  }
+
+  /// True where a side of a divided mesh lies on such an edge, or one of its ends inside of one.
+  bool touches(const SplitMesh& mesh, const Side& side) const {
+    if (edges_.empty()) return false;
+    std::set<int> both;
+    for (const int vertex : {mesh.from(side), mesh.to(side)}) {
+      std::set<int> own(mesh.supports[vertex].vertices.begin(), mesh.supports[vertex].vertices.end());
+      own.erase(-1);
+      if (is_one(own)) return true;
+      both.merge(own);
+    }
+    return is_one(both);
+  }
+
+ private:
+  bool is_one(const std::set<int>& ends) const { return ends.size() == 2 && edges_.contains({*ends.begin(), *ends.rbegin()}); }
+
+  std::set<std::pair<int, int>> edges_;
+};
 
 double surface_length(const SplitMesh& mesh, const Chart& source, const Side& side) {
   const int s = mesh.sources[side.triangle];
@@ -171,13 +204,13 @@ struct Stretch {
   double length;
 };
 std::vector<Stretch> stretches(const std::vector<int>& path, const std::vector<int>& node_of, const SplitMesh& mesh,
-                               const Chart& source) {
+                               const Chart& source, const AvoidedEdges& avoided) {
   std::vector<Stretch> out;
   int from = node_of[path.front()];
   double length = 0;
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
     const Side side = mesh.find_side(path[k], path[k + 1]);
-    length += surface_length(mesh, source, side);
+    length += (avoided.touches(mesh, side) ? kAvoided : 1) * surface_length(mesh, source, side);
     const int node = node_of[path[k + 1]];
     if (node < 0) continue;
     out.push_back({from, node, side, length});
@@ -211,7 +244,7 @@ class SegmentIndex {
 
 }  // namespace
 
-QuadMesh make_quad_mesh(const AxisAlignedChart& aligned, const Chart& source, int extra_corners) {
+QuadMesh make_quad_mesh(const AxisAlignedChart& aligned, const Chart& source, int extra_corners, const SidePrices& prices) {
   QuadMesh out;
   SplitMesh mesh = aligned.mesh;
   for (const auto& loop : mesh.boundary_loops()) {
@@ -224,10 +257,11 @@ QuadMesh make_quad_mesh(const AxisAlignedChart& aligned, const Chart& source, in
   const std::vector<int> node_of = find_nodes(paths, mesh.vertex_count(), out.node_count);
   const std::vector<int> face_of = find_faces(mesh, paths, out);
   SegmentIndex index(mesh, face_of, out.segments);
+  const AvoidedEdges avoided(source, prices);
   for (std::size_t t = 0; t < paths.size(); ++t) {
     QuadMesh::Trail& trail = out.trails[t];
     trail.nodes = {node_of[paths[t].front()]};
-    for (const Stretch& stretch : stretches(paths[t], node_of, mesh, source)) {
+    for (const Stretch& stretch : stretches(paths[t], node_of, mesh, source, avoided)) {
       trail.nodes.push_back(stretch.to);
       trail.segments.push_back(index.segment_of(stretch));
       trail.length += stretch.length;

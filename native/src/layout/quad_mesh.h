@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cut/side_prices.h"
 #include "geometry/axis_aligned_chart.h"
 #include "layout/axis_trails.h"
 
@@ -12,13 +13,13 @@ namespace atlas_refine {
 struct QuadMesh {
   struct Segment {
     int left, right;  ///< faces on its two sides
-    double length;    ///< on the surface
+    double length;    ///< on the surface, more where no seam is wanted
   };
   struct Trail {
     TrailStart start;
     std::vector<int> nodes;
     std::vector<int> segments;  ///< between consecutive nodes
-    double length = 0;          ///< on the surface
+    double length = 0;          ///< of its segments
   };
   std::vector<Box> faces;
   std::vector<double> face_areas;
@@ -31,6 +32,7 @@ struct QuadMesh {
 };
 
 /// Q from the chart's reflex corners and from `extra_corners` boundary vertices besides, spread evenly along the long sides.
-QuadMesh make_quad_mesh(const AxisAlignedChart& aligned, const Chart& source, int extra_corners);
+/// Trails count as much longer where they run along or across edges at kNoSeam of `prices`, which are those of `source`.
+QuadMesh make_quad_mesh(const AxisAlignedChart& aligned, const Chart& source, int extra_corners, const SidePrices& prices = {});
 
 }  // namespace atlas_refine

@@ -102,10 +102,12 @@ std::vector<int> by_size(const Round& round) {
   return order;
 }
 
-void add_quad_meshes(Round& round, const std::vector<AxisAlignedChart>& aligned, const std::vector<Chart>& sources) {
+void add_quad_meshes(Round& round, const std::vector<AxisAlignedChart>& aligned, const std::vector<Chart>& sources,
+                     const std::vector<SidePrices>& prices) {
   for (std::size_t c = 0; c < aligned.size(); ++c) {
     const bool boxed = !round.boxed[c].rectangles.empty();
-    round.quads.push_back(boxed ? QuadMesh{} : make_quad_mesh(aligned[c], sources[c], round.extra_corners));
+    const SidePrices own = prices.empty() ? SidePrices() : prices[c];
+    round.quads.push_back(boxed ? QuadMesh{} : make_quad_mesh(aligned[c], sources[c], round.extra_corners, own));
     round.cut_length_unit += 0.5 * round.quads.back().boundary_length;
     for (double area : round.quads.back().face_areas) round.area += area;
     for (double area : round.boxed[c].areas) round.area += area;
@@ -280,14 +282,14 @@ Layout search_layout(const std::vector<AxisAlignedChart>& aligned, const std::ve
   Layout best;
   for (std::size_t g = 0; g < options.gaps.size(); ++g) {
     Round round{static_cast<int>(g), options.gaps[g], 0, {}, boxes, {}};
-    add_quad_meshes(round, aligned, sources);
+    add_quad_meshes(round, aligned, sources, options.prices);
     const Layout layout = search_round(round, options, monitor);
     if (best.pieces.empty() || layout.pe > best.pe) best = layout;
     if (best.pe >= pe_target(options) || highest_pe(round) < pe_target(options)) return best;
   }
   for (const int extra : kExtraCorners) {
     Round round{extra, options.gaps.back(), extra, {}, boxes, {}};
-    add_quad_meshes(round, aligned, sources);
+    add_quad_meshes(round, aligned, sources, options.prices);
     const Layout layout = search_round(round, options, monitor);
     if (layout.pe > best.pe) best = layout;
     if (best.pe >= pe_target(options)) return best;

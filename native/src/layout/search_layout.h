@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "atlas_refine/options.h"
+#include "cut/side_prices.h"
 #include "geometry/axis_aligned_chart.h"
 #include "layout/axis_trails.h"
 #include "support/monitor.h"
@@ -36,6 +37,7 @@ struct LayoutOptions {
   RectangleOptions rectangles;
   std::uint64_t seed = 1;
   int threads = 1;
+  std::vector<SidePrices> prices = {};  ///< one per chart: trails keep off edges at kNoSeam where they can; empty: no such edges
 };
 
 /// The best of options.rectangles.candidates layouts by eq. (11) among those at the bound. Where none holds it: smaller gaps,
