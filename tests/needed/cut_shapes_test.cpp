@@ -49,6 +49,15 @@ TEST(ShapesAsTheyCame, MendingCostsWhatTheyTell) {
   EXPECT_NEAR(lost, after - before, 1e-9);
 }
 
+TEST(ShapesAsTheyCame, WhatCameAsALineHasNone) {
+  const Band band;
+  std::vector<Chart> lines = band.charts;
+  for (Vec2& uv : lines[0].uvs) uv.y() *= 1e-9;
+  const ShapesAsTheyCame shapes = shapes_as_they_came(lines, band.mended, {0});
+  EXPECT_TRUE(shapes.uvs[0].empty());
+  EXPECT_TRUE(shapes.bent[0].empty());
+}
+
 TEST(ShapesAsTheyCame, HalvesThatDoNotOverlapGetThemBack) {
   const Band band;
   ASSERT_FALSE(certify_charts(band.charts).valid());

@@ -7,11 +7,13 @@
 #include "geometry/guards.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
+#include "repair/bad_triangles.h"
 
 namespace atlas_refine {
 namespace {
 
-constexpr int kCells = 24;  // along a chart: losses are told so finely
+constexpr int kCells = 24;     // along a chart: losses are told so finely
+constexpr double kLine = 100;  // E_d above which a chart is all but a line: it came without a shape
 
 /// What a chart has lost on its way from `before`, divided by `area`; of triangles that had a shape.
 std::vector<Loss> bent(const Chart& before, const Chart& after, double area) {
@@ -47,7 +49,7 @@ ShapesAsTheyCame shapes_as_they_came(const std::vector<Chart>& charts, const Cut
   ShapesAsTheyCame out{.uvs = std::vector<std::vector<Vec2>>(charts.size()),
                        .bent = std::vector<std::vector<Loss>>(charts.size())};
   for (const int c : mended) {
-    if (!is_whole(whole.pieces[c], charts[c])) continue;
+    if (!is_whole(whole.pieces[c], charts[c]) || !(sums_of_good(charts[c]).best_energy() < kLine)) continue;
     out.uvs[c] = charts[c].uvs;
     out.bent[c] = bent(charts[c], whole.pieces[c].mesh, area);
   }
