@@ -71,7 +71,9 @@ def with_result(ending, mesh, output, goal, report):
     figures = {name: measure_file.number(value) for name, value in figures.items()}
     aspect = check_atlas.aspect_of(goal.aspect)
     gap = measure_file.gap_to_check(report)
-    found = check_atlas.check(mesh, output, goal.bound, aspect, cuts=report["options"]["seams"] != "none", charts=charts, **gap)
+    cuts = report["options"]["seams"] != "none"
+    opened = any("opened along edges" in repair["what"] for repair in report["repairs"])
+    found = check_atlas.check(mesh, output, goal.bound, aspect, cuts=cuts, charts=charts, added_seams=opened and not cuts, **gap)
     how = report["intervention"] if found["ok"] else "invalid"
     why = "valid" if found["ok"] else "; ".join(found["problems"])
     seconds = report["seconds"]["refine"]

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <numbers>
 #include <set>
 
@@ -54,6 +56,32 @@ TEST(OpenClosed, HolesStayWhereAHandleIsOpened) {
     ASSERT_EQ(cut.pieces.size(), 1u);
     EXPECT_TRUE(shape_of(cut.pieces[0].mesh).fits_plane());
   }
+}
+
+/// A torus with a hole that runs nearly around its tube and has teeth on both sides.
+Atlas torus_with_jagged_hole() {
+  const int around = 4, tube = 12;
+  const Atlas whole = shapes::torus(around, tube);
+  Atlas out;
+  out.positions = whole.positions;
+  for (int f = 0; f < whole.face_count(); ++f) {
+    const int i = f / tube, j = f % tube;
+    const bool tooth = (i == 1 && j % 3 == 1) || (i == around - 1 && j % 3 == 2);
+    if ((i == 0 || tooth) && j < tube - 1) continue;
+    std::array<int, 4> corners{};
+    std::copy_n(whole.corner_vertices.begin() + whole.face_offsets[f], 4, corners.begin());
+    shapes::add_quad(out, corners);
+  }
+  return out;
+}
+
+// The shortest loop around the tube runs along the hole's border, from tooth to tooth.
+TEST(OpenClosed, NothingIsPartedAlongAHole) {
+  const Chart chart = only_chart(torus_with_jagged_hole());
+  ASSERT_EQ(shape_of(chart).handles, 1);
+  const CutAtlas cut = opened(chart);
+  ASSERT_EQ(cut.pieces.size(), 1u);
+  EXPECT_TRUE(shape_of(cut.pieces[0].mesh).fits_plane());
 }
 
 TEST(OpenClosed, RunsAlongEdgesOfFacesOnly) {

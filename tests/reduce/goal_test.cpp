@@ -59,6 +59,17 @@ TEST(Goal, KeepWantsEachChartsOwnDensityWhateverBecameOfIt) {
   EXPECT_NEAR(energy(objective, charts), 1, 1e-9);
 }
 
+TEST(Goal, ChartsThatAreMostlyFlippedAreToHaveTheMeanDensity) {
+  std::vector<Chart> charts = of_two_scales();
+  const auto alone = wanted_density(charts, Density::Keep);
+  charts.push_back(charts[0]);
+  for (Vec2& uv : charts[2].uvs) uv.x() *= -1e-3;
+  const auto wanted = wanted_density(charts, Density::Keep);
+  EXPECT_NEAR(wanted[0], alone[0], 1e-12);
+  EXPECT_NEAR(wanted[1], alone[1], 1e-12);
+  EXPECT_EQ(wanted[2], 1);
+}
+
 TEST(Goal, TheInputAsReferenceLeavesTheDensityToItsOption) {
   std::vector<Chart> charts = of_two_scales();
   for (Vec2& uv : charts[0].uvs) uv.x() *= 1.5;

@@ -60,6 +60,20 @@ double distortion_of_convex(const Chart& before, const Chart& after) {
   return dirichlet_sums(shapes, triangles, after.uvs).best_energy();
 }
 
+TEST(ConvexAgain, APolygonThatNothingMendsDoesNotKeepOthersFromIt) {
+  Chart dented = with_dent();
+  const auto& [a, b, c] = dented.triangles.front();
+  const int face = dented.triangle_faces.front();
+  const auto of_face = [&](const Guard& guard) { return guard.face == face; };
+  std::find_if(dented.guards.begin(), dented.guards.end(), of_face)->triangle = {b, a, c};  // positive under no UVs
+  Monitor monitor;
+  Chart mended = convex_again(dented, 1, monitor);
+  EXPECT_FALSE(all_guards_hold(mended));
+  std::erase_if(mended.guards, of_face);
+  EXPECT_TRUE(all_guards_hold(mended));
+  testing::expect_certified({mended});
+}
+
 TEST(ConvexAgain, FacesThatHoldKeepTheShapesOfTheirUvs) {
   // Three times as wide as the surface: the artist's will.
   Chart dented = with_dent();

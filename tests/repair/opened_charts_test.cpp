@@ -12,9 +12,9 @@
 #include "charts.h"
 #include "closed_shapes.h"
 #include "geometry/rest_triangle.h"
+#include "measure/bad_triangles.h"
 #include "measure/distortion.h"
 #include "refine_checks.h"
-#include "repair/bad_triangles.h"
 #include "repair_checks.h"
 #include "shapes.h"
 

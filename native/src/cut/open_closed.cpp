@@ -138,6 +138,39 @@ std::set<int> handle_loops(const Chart& chart, const Graph& graph, const std::ve
   return loops;
 }
 
+/// Without the edges that would part pieces from the surface, where loops run from a hole and back to it.
+std::set<int> without_partings(const Chart& chart, const Graph& graph, std::set<int> cuts) {
+  DisjointSets faces(chart.triangles.size());
+  const auto unite_across = [&](int e) {
+    const auto [one, other] = graph.edges[e].triangles;
+    if (other < 0 || faces.find(one) == faces.find(other)) return false;
+    faces.unite(one, other);
+    return true;
+  };
+  for (int e = 0; e < static_cast<int>(graph.edges.size()); ++e) {
+    if (!cuts.contains(e)) unite_across(e);
+  }
+  std::erase_if(cuts, unite_across);
+  return cuts;
+}
+
+/// Without the ways that end inside the surface: they open nothing.
+std::set<int> without_dead_ends(const Graph& graph, const std::vector<int>& hole_of_vertex, std::set<int> cuts) {
+  std::vector<std::set<int>> at(graph.around.size());
+  for (const int e : cuts) {
+    for (const int v : graph.edges[e].ends) at[v].insert(e);
+  }
+  for (int start = 0; start < static_cast<int>(at.size()); ++start) {
+    for (int v = start; at[v].size() == 1 && hole_of_vertex[v] < 0;) {
+      const int e = *at[v].begin();
+      for (const int end : graph.edges[e].ends) at[end].erase(e);
+      cuts.erase(e);
+      v = graph.edges[e].ends[0] == v ? graph.edges[e].ends[1] : graph.edges[e].ends[0];
+    }
+  }
+  return cuts;
+}
+
 double length_of(const Graph& graph, const std::set<int>& edges) {
   double length = 0;
   for (const int e : edges) length += graph.edges[e].length;
@@ -160,6 +193,7 @@ std::set<int> shortest_handle_loops(const Chart& chart, const Graph& graph, int 
   std::vector<int> roots = {first_root};
   for (int k = 0; k < kRoots; ++k) {
     std::set<int> loops = handle_loops(chart, graph, hole_of_vertex, distances_from(graph, {roots.back()}));
+    loops = without_dead_ends(graph, hole_of_vertex, without_partings(chart, graph, std::move(loops)));
     if (best.empty() || length_of(graph, loops) < length_of(graph, best)) best = std::move(loops);
     roots.push_back(distances_from(graph, roots).farthest());
   }

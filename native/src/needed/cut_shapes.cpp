@@ -5,15 +5,14 @@
 #include <cmath>
 
 #include "geometry/guards.h"
+#include "measure/bad_triangles.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
-#include "repair/bad_triangles.h"
 
 namespace atlas_refine {
 namespace {
 
-constexpr int kCells = 24;     // along a chart: losses are told so finely
-constexpr double kLine = 100;  // E_d above which a chart is all but a line: it came without a shape
+constexpr int kCells = 24;  // along a chart: losses are told so finely
 
 /// What a chart has lost on its way from `before`, divided by `area`; of triangles that had a shape.
 std::vector<Loss> bent(const Chart& before, const Chart& after, double area) {

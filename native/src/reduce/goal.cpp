@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measure/bad_triangles.h"
 #include "measure/distortion.h"
 
 namespace atlas_refine {
@@ -50,14 +51,15 @@ std::vector<Vec2> nearest_similar(const std::vector<Vec2>& shape, const std::vec
 
 std::vector<double> wanted_density(const std::vector<Chart>& input, Density density) {
   if (density == Density::Equal) return std::vector<double>(input.size(), 1);
-  std::vector<double> out;
+  std::vector<double> out;  // 0 where the UVs tell none
   double wanted = 0, surface = 0;
   for (const Chart& chart : input) {
-    out.push_back(usable_density(chart));
+    out.push_back(mostly_bad(chart, bad_triangles(chart)) ? 0 : usable_density(chart));
+    if (out.back() == 0) continue;
     wanted += out.back() * out.back() * chart.surface.area();
     surface += chart.surface.area();
   }
-  for (double& value : out) value *= std::sqrt(surface / wanted);
+  for (double& value : out) value = value == 0 ? 1 : value * std::sqrt(surface / wanted);
   return out;
 }
 

@@ -11,7 +11,8 @@
 namespace atlas_refine {
 
 /// UV length per surface length that each chart is to have. Equal: 1 for all. Keep: what it has in `input`, normalised so that
-/// all charts together have the area of the surface; whatever is done to a chart later, it is to have that again.
+/// all charts together have the area of the surface, and their mean where it is mostly flipped or without area; whatever is done
+/// to a chart later, it is to have that again.
 std::vector<double> wanted_density(const std::vector<Chart>& input, Density density);
 
 /// Scales each chart of `charts` as it is now to its wanted density. Equal scales to the chart's own optimum of E_d, keep to the

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
@@ -14,8 +16,10 @@
 namespace atlas_refine {
 namespace {
 
-constexpr int kMostRings = 4;          // of elements around the broken guards, that may change
-constexpr double kLeastWeight = 1e-3;  // of an element, as a fraction of the mean one
+constexpr int kMostRings = 4;           // of elements around the broken guards, that may change
+constexpr double kMostCost = 2;         // as a factor on E_d: a thin polygon is no gain
+constexpr std::size_t kMostAlone = 64;  // broken polygons that are tried one by one where they cannot all be mended
+constexpr double kLeastWeight = 1e-3;   // of an element, as a fraction of the mean one
 
 std::set<int> faces_with_guards(const Chart& chart) {
   std::set<int> out;
@@ -67,6 +71,29 @@ Tangle tangle_at(const Chart& chart, const std::vector<char>& free, const std::s
   return out;
 }
 
+/// Without the guards of these faces.
+Chart without_guards(Chart chart, const std::set<int>& faces) {
+  std::erase_if(chart.guards, [&](const Guard& guard) { return faces.contains(guard.face); });
+  return chart;
+}
+
+/// The UVs with these polygons convex and all guards held; nothing where they were not found.
+std::optional<std::vector<Vec2>> made_convex(const Chart& chart, const std::set<int>& faces, int threads, Monitor& monitor) {
+  Chart bare = chart;
+  bare.guards.clear();
+  const double most = kMostCost * dirichlet_sums(bare).best_energy();
+  std::vector<char> free = at_faces(chart, faces);
+  for (int rings = 0; rings <= kMostRings; ++rings, widen(chart, free)) {
+    auto uvs = untangle(tangle_at(chart, free, faces), chart.uvs, threads, monitor);
+    if (!uvs) continue;
+    Chart mended = chart;
+    mended.uvs = std::move(*uvs);
+    if (all_guards_hold(mended) && dirichlet_sums(mended).best_energy() < most && certify_charts({mended}).valid())
+      return std::move(mended.uvs);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool all_guards_hold(Chart chart) {
@@ -76,17 +103,23 @@ bool all_guards_hold(Chart chart) {
 }
 
 Chart convex_again(const Chart& chart, int threads, Monitor& monitor) {
-  const std::set<int> broken = faces_with_broken_guards(chart);
-  if (broken.empty()) return chart;
-  std::vector<char> free = at_faces(chart, broken);
-  for (int rings = 0; rings <= kMostRings; ++rings, widen(chart, free)) {
-    auto uvs = untangle(tangle_at(chart, free, broken), chart.uvs, threads, monitor);
-    if (!uvs) continue;
-    Chart mended = chart;
-    mended.uvs = std::move(*uvs);
-    if (all_guards_hold(mended) && certify_charts({mended}).valid()) return mended;
+  Chart out = chart;
+  std::set<int> broken = faces_with_broken_guards(chart);
+  if (broken.empty()) return out;
+  if (auto uvs = made_convex(chart, broken, threads, monitor)) {
+    out.uvs = std::move(*uvs);
+    return out;
   }
-  return chart;
+  if (broken.size() > kMostAlone) return out;
+  for (const int face : std::set<int>(broken)) {
+    std::set<int> others = broken;
+    others.erase(face);
+    auto uvs = made_convex(without_guards(out, others), {face}, threads, monitor);
+    if (!uvs) continue;
+    out.uvs = std::move(*uvs);
+    broken = std::move(others);
+  }
+  return out;
 }
 
 }  // namespace atlas_refine

@@ -8,8 +8,8 @@ namespace atlas_refine {
 
 bool all_guards_hold(Chart chart);
 
-/// The valid chart with its UVs changed around polygons whose guards are broken, where all guards hold after that and the chart
-/// is still valid; else as it was.
+/// The valid chart with its UVs changed around polygons whose guards are broken, so that these hold and the chart is still valid:
+/// around all of them or, where that is not to be had, around as many as can be mended one after the other.
 Chart convex_again(const Chart& chart, int threads, Monitor& monitor);
 
 }  // namespace atlas_refine

@@ -10,9 +10,9 @@
 
 #include "cut/open_closed.h"
 #include "geometry/guards.h"
+#include "measure/bad_triangles.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
-#include "repair/bad_triangles.h"
 #include "repair/convex_again.h"
 #include "repair/embed.h"
 #include "repair/part_touching.h"
@@ -27,8 +27,6 @@ using What = ChartRepair::What;
 constexpr double kShapeLost = 1.5;
 // E_2 up to which a chart that was mended in place needs no comparison with an embedding.
 constexpr double kShapeKept = 1.02;
-// E_d above which a chart that was mended in place is all but a line: its shape is not worth keeping.
-constexpr double kLine = 100;
 
 /// One chart after its repair, or why it has none.
 struct Mended {
@@ -80,13 +78,6 @@ Mended opened_and_embedded(const Chart& chart, const ChartShape& shape, const Si
   if (!embedded) return unmended(what + " and, opened, no embedding of acceptable distortion was found");
   cut->pieces[0].mesh = *embedded;
   return {.atlas = std::move(*cut), .what = What::Opened, .reason = ""};
-}
-
-/// Whether most of the chart's surface lies in bad triangles: then there is no shape to keep.
-bool mostly_bad(const Chart& chart, const std::vector<char>& bad) {
-  double area = 0;
-  for (std::size_t t = 0; t < bad.size(); ++t) area += bad[t] ? chart.surface[t].area : 0;
-  return area > 0.5 * chart.surface.area();
 }
 
 double energy(const Chart& chart) { return dirichlet_sums(chart).best_energy(); }

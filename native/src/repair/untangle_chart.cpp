@@ -6,8 +6,8 @@
 
 #include "geometry/plane.h"
 #include "geometry/rest_triangle.h"
+#include "measure/bad_triangles.h"
 #include "measure/certificate.h"
-#include "repair/bad_triangles.h"
 #include "repair/part_touching.h"
 #include "repair/untangle.h"
 

@@ -15,8 +15,14 @@ std::vector<char> bad_triangles(const Chart& chart);
 /// surface is far from what the chart has elsewhere. They have no shape to keep.
 std::vector<char> misshapen_triangles(const Chart& chart);
 
+/// Whether most of the chart's surface lies in `bad` triangles: then there is no shape to keep, and no size.
+bool mostly_bad(const Chart& chart, const std::vector<char>& bad);
+
 /// From the surface to the UVs, over the triangles that are not bad: best_energy() is their E_d.
 DirichletSums sums_of_good(const Chart& chart);
+
+/// E_d above which a chart is all but a line: its shape is not worth keeping.
+inline constexpr double kLine = 100;
 
 /// E_2 of `after` to the UVs of `before`, over the triangles that have a shape there.
 double distortion_to_good(const Chart& before, const Chart& after);

@@ -1,5 +1,5 @@
 // Orientation tests, and heights.
-#include "repair/bad_triangles.h"
+#include "measure/bad_triangles.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -64,6 +64,12 @@ std::vector<char> misshapen_triangles(const Chart& chart) {
     bad[t] = std::max(std::abs(own[0] - usual[0]), std::abs(own[1] - usual[1])) > kDrawnOut;
   }
   return bad;
+}
+
+bool mostly_bad(const Chart& chart, const std::vector<char>& bad) {
+  double area = 0;
+  for (std::size_t t = 0; t < bad.size(); ++t) area += bad[t] ? chart.surface[t].area : 0;
+  return area > 0.5 * chart.surface.area();
 }
 
 DirichletSums sums_of_good(const Chart& chart) {
