@@ -252,6 +252,16 @@ def test_charts_nearer_than_noise_are_not_one_where_that_is_much_of_an_edge(tmp_
     assert check(tmp_path, near, near)["charts"] == 2
 
 
+def test_noise_that_adds_up_around_a_vertex_leaves_no_hole_of_two_sides(tmp_path):
+    around = [4, 3, 0, 1]  # faces at (1/3, 1/3); the first and the last have an inner edge in common
+
+    def grown(face, u, v):
+        at_vertex = face in around and np.hypot(u - 1 / 3, v - 1 / 3) < 1e-6
+        return (u + 7e-5 * around.index(face) if at_vertex else u, v)
+
+    assert check(tmp_path, separately(sheet(0, 0, 1), grown), separately(sheet(0, 0, 1)), cuts=True)["problems"] == []
+
+
 def test_a_duplicate_face_is_a_chart(tmp_path):
     positions, uvs, faces = sheet(0, 0, 1)
     for double, moves in (

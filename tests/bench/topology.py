@@ -22,6 +22,8 @@ class Topology:
         two_start, two_end = np.where(opposite, self.next[two], two), np.where(opposite, two, self.next[two])
         self.node = components(corners, np.r_[one, self.next[one]], np.r_[two_start, two_end])
         self.chart = components(faces, self.face[one], self.face[two])
+        if as_meant:
+            self._close_two_sided_holes()
         self.sense = self._senses(obj, one, two)
         self.boundary = np.flatnonzero(self.partner < 0)
 
@@ -38,6 +40,18 @@ class Topology:
         p, used = obj.positions[obj.corner_vertex], obj.positions
         self.seams = len(at)
         self.seam_length = float(np.linalg.norm(p[self.next[at]] - p[at], axis=1).sum() / np.linalg.norm(np.ptp(used, axis=0)))
+
+    def _close_two_sided_holes(self):
+        """Where all other faces around both ends are joined, the two sides of an edge are: no hole has two sides."""
+        free = np.flatnonzero(self.partner < 0)
+        ends = {}
+        for c in free:
+            ends.setdefault((self.node[c], self.node[self.next[c]]), []).append(c)
+        for (start, end), own in ends.items():
+            others = ends.get((end, start), [])
+            if start < end and len(own) == len(others) == 1:
+                self.partner[own[0]], self.partner[others[0]] = others[0], own[0]
+                self.opposite[[own[0], others[0]]] = True
 
     def _gaps(self, obj):
         """How far apart the UVs of another file with the same faces are across each joined edge: the larger of both ends."""
