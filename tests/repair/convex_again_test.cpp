@@ -33,14 +33,14 @@ TEST(ConvexAgain, ADentIsTakenOutAndNothingFarMoves) {
   const Chart dented = with_dent();
   ASSERT_FALSE(all_guards_hold(dented));
   Monitor monitor;
-  const Chart mended = convex_again(dented, 1, monitor);
+  const Chart mended = convex_again(dented, false, 1, monitor);
   EXPECT_TRUE(all_guards_hold(mended));
   testing::expect_certified({mended});
   int moved = 0;
   for (int v = 0; v < dented.vertex_count(); ++v) moved += mended.uvs[v] != dented.uvs[v];
   EXPECT_GT(moved, 0);
   EXPECT_LT(moved, dented.vertex_count() / 2);
-  EXPECT_TRUE(testing::same_bits(mended.uvs, convex_again(dented, 2, monitor).uvs));
+  EXPECT_TRUE(testing::same_bits(mended.uvs, convex_again(dented, false, 2, monitor).uvs));
 }
 
 /// E_2 over the triangles of polygons that were convex before.
@@ -67,11 +67,44 @@ TEST(ConvexAgain, APolygonThatNothingMendsDoesNotKeepOthersFromIt) {
   const auto of_face = [&](const Guard& guard) { return guard.face == face; };
   std::find_if(dented.guards.begin(), dented.guards.end(), of_face)->triangle = {b, a, c};  // positive under no UVs
   Monitor monitor;
-  Chart mended = convex_again(dented, 1, monitor);
+  Chart mended = convex_again(dented, false, 1, monitor);
   EXPECT_FALSE(all_guards_hold(mended));
   std::erase_if(mended.guards, of_face);
   EXPECT_TRUE(all_guards_hold(mended));
   testing::expect_certified({mended});
+}
+
+/// The chart with one more sheet of the same shape on itself, as a chart that runs around more than once has.
+Chart doubled(const Chart& chart) {
+  Chart out = chart;
+  const int vertices = chart.vertex_count();
+  std::vector<RestTriangle> surface(chart.surface.begin(), chart.surface.end());
+  surface.insert(surface.end(), chart.surface.begin(), chart.surface.end());
+  out.surface = Surface(std::move(surface));
+  out.uvs.insert(out.uvs.end(), chart.uvs.begin(), chart.uvs.end());
+  const int faces = chart.triangle_faces.back() + 1;
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    const auto& [a, b, c] = chart.triangles[t];
+    out.triangles.push_back({a + vertices, b + vertices, c + vertices});
+    out.triangle_faces.push_back(chart.triangle_faces[t] + faces);
+  }
+  for (Guard guard : chart.guards) {
+    for (int& v : guard.triangle) v += vertices;
+    guard.face += faces;
+    out.guards.push_back(guard);
+  }
+  for (std::vector<int> loop : chart.boundary_loops) {
+    for (int& v : loop) v += vertices;
+    out.boundary_loops.push_back(loop);
+  }
+  return out;
+}
+
+TEST(ConvexAgain, ChartsThatMayOverlapAreMendedToo) {
+  const Chart dented = doubled(with_dent());
+  Monitor monitor;
+  EXPECT_FALSE(all_guards_hold(convex_again(dented, false, 1, monitor)));
+  EXPECT_TRUE(all_guards_hold(convex_again(dented, true, 1, monitor)));
 }
 
 TEST(ConvexAgain, FacesThatHoldKeepTheShapesOfTheirUvs) {
@@ -80,7 +113,7 @@ TEST(ConvexAgain, FacesThatHoldKeepTheShapesOfTheirUvs) {
   for (Vec2& uv : dented.uvs) uv.x() *= 3;
   ASSERT_FALSE(all_guards_hold(dented));
   Monitor monitor;
-  const Chart mended = convex_again(dented, 1, monitor);
+  const Chart mended = convex_again(dented, false, 1, monitor);
   EXPECT_TRUE(all_guards_hold(mended));
   EXPECT_LT(distortion_of_convex(dented, mended), 1.01);
 }
@@ -88,7 +121,7 @@ TEST(ConvexAgain, FacesThatHoldKeepTheShapesOfTheirUvs) {
 TEST(ConvexAgain, WhatIsConvexStaysBitForBit) {
   const Chart chart = testing::charts_of(shapes::honeycomb(4, 4)).at(0);
   Monitor monitor;
-  EXPECT_TRUE(testing::same_bits(convex_again(chart, 1, monitor).uvs, chart.uvs));
+  EXPECT_TRUE(testing::same_bits(convex_again(chart, false, 1, monitor).uvs, chart.uvs));
 }
 
 }  // namespace

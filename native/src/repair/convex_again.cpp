@@ -78,7 +78,8 @@ Chart without_guards(Chart chart, const std::set<int>& faces) {
 }
 
 /// The UVs with these polygons convex and all guards held; nothing where they were not found.
-std::optional<std::vector<Vec2>> made_convex(const Chart& chart, const std::set<int>& faces, int threads, Monitor& monitor) {
+std::optional<std::vector<Vec2>> made_convex(const Chart& chart, const std::set<int>& faces, bool may_overlap, int threads,
+                                             Monitor& monitor) {
   Chart bare = chart;
   bare.guards.clear();
   const double most = kMostCost * dirichlet_sums(bare).best_energy();
@@ -88,7 +89,8 @@ std::optional<std::vector<Vec2>> made_convex(const Chart& chart, const std::set<
     if (!uvs) continue;
     Chart mended = chart;
     mended.uvs = std::move(*uvs);
-    if (all_guards_hold(mended) && dirichlet_sums(mended).best_energy() < most && certify_charts({mended}).valid())
+    if (all_guards_hold(mended) && dirichlet_sums(mended).best_energy() < most &&
+        (may_overlap || certify_charts({mended}).valid()))
       return std::move(mended.uvs);
   }
   return std::nullopt;
@@ -102,11 +104,11 @@ bool all_guards_hold(Chart chart) {
   return chart.guards.size() == count;
 }
 
-Chart convex_again(const Chart& chart, int threads, Monitor& monitor) {
+Chart convex_again(const Chart& chart, bool may_overlap, int threads, Monitor& monitor) {
   Chart out = chart;
   std::set<int> broken = faces_with_broken_guards(chart);
   if (broken.empty()) return out;
-  if (auto uvs = made_convex(chart, broken, threads, monitor)) {
+  if (auto uvs = made_convex(chart, broken, may_overlap, threads, monitor)) {
     out.uvs = std::move(*uvs);
     return out;
   }
@@ -114,7 +116,7 @@ Chart convex_again(const Chart& chart, int threads, Monitor& monitor) {
   for (const int face : std::set<int>(broken)) {
     std::set<int> others = broken;
     others.erase(face);
-    auto uvs = made_convex(without_guards(out, others), {face}, threads, monitor);
+    auto uvs = made_convex(without_guards(out, others), {face}, may_overlap, threads, monitor);
     if (!uvs) continue;
     out.uvs = std::move(*uvs);
     broken = std::move(others);

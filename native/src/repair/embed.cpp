@@ -185,7 +185,7 @@ std::optional<Chart> embed(const Chart& chart, const Chart& start, Shapes shapes
   // The start may have had polygons that were not convex and had no guards; those that are in the end are guarded from here on.
   Chart embedded = chart;
   embedded.uvs = std::move(result.uvs[0]);
-  embedded = convex_again(embedded, threads, monitor);
+  embedded = convex_again(embedded, false, threads, monitor);
   drop_broken_guards(embedded);
   return embedded;
 }

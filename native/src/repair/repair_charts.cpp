@@ -214,7 +214,7 @@ void repair_chart(const Chart& chart, int index, const RepairOptions& options, M
     return;
   }
   for (Piece& piece : result->atlas.pieces)
-    piece.mesh = convex_again(without_lost_guards(piece.mesh, chart), options.threads, monitor);
+    piece.mesh = convex_again(without_lost_guards(piece.mesh, chart), options.may_overlap, options.threads, monitor);
   if (std::find(bad.begin(), bad.end(), 0) != bad.end()) {
     const Piece& piece = result->atlas.pieces[0];
     repair.distortion_to_input = distortion_to_good(before_repair(chart, piece), piece.mesh);
