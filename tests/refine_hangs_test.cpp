@@ -61,6 +61,16 @@ TEST(Hangs, ThousandsOfChartsArePlacedWithALittleLessGapInsteadOfBent) {
   EXPECT_NE(result.warnings.back().find("charts would have to be bent"), std::string::npos) << result.warnings.back();
 }
 
+TEST(Hangs, ThousandsOfChartsThatNeedNoCutAreNotBentEither) {
+  Atlas atlas = shapes::squares(1200);
+  for (Vec3& p : atlas.positions) p.x() *= 1.5;  // there would be something to gain
+  for (const Cut cut : {Cut::Split, Cut::Edges}) {
+    const RefineResult result = refine(atlas, {.pe_bound = 0.76, .seams = Seams::Rectangles, .cut = cut});
+    EXPECT_EQ(result.intervention, Intervention::Moved);
+    EXPECT_EQ(result.iterations, 0);
+  }
+}
+
 TEST(Hangs, APolygonThatIsOnePointInSpaceIsCutOrSqueezed) {
   const Atlas one = polygon_without_size(30);
   Atlas other = one;

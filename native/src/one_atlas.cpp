@@ -9,6 +9,7 @@
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "needed/cut_as_needed.h"
+#include "placing.h"
 #include "rectangles.h"
 #include "reduce/goal.h"
 #include "report/certify.h"
@@ -147,8 +148,7 @@ CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
   RefineOptions options = run.options;
   if (options.seams == Seams::Rectangles) {
     if (auto cut = solve_with_cuts(run, range)) return std::move(*cut);
-    // Also where charts are not cut, that road goes on to the optimum under the bound.
-    options.relax = options.relax || !options.rectangles.until_input;
+    options.relax = goes_on(run, run.input.set.charts.size());  // also where charts are not cut
   }
   if (options.seams == Seams::Needed) return certified(run, cut_as_needed(run, range.part(0, 0.96)), range);
   const Refinement whole{run.input, options, run.monitor, run.journal, run.threads, run.asked};

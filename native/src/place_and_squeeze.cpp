@@ -227,7 +227,7 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
 
 std::optional<Solution> place_and_squeeze_cut(const Refinement& run, const CutAtlas& cut, const ProgressRange& range) {
   RefineOptions options = run.options;
-  options.relax = options.relax || !options.rectangles.until_input;
+  options.relax = goes_on(run, cut.pieces.size());
   Solution out = place_and_squeeze({run.input, options, run.monitor, run.journal, run.threads, run.asked}, cut, false, range);
   const bool holds = holds_bound(run, {.charts = meshes_of(out.atlas), .frame = out.atlas.frame});
   if (!holds && !run.monitor.finishing()) return std::nullopt;

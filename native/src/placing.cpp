@@ -76,6 +76,10 @@ bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare
   return allowed && packing_efficiency(placed, options.box_aspect) >= spare * options.pe_bound;
 }
 
+bool goes_on(const Refinement& run, std::size_t charts) {
+  return run.options.relax || (!run.options.rectangles.until_input && charts < kThousands);
+}
+
 bool rather_moves(const Refinement& run, std::size_t charts) { return charts >= kThousands && !run.options.relax; }
 
 PlacedCharts place(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap,

@@ -25,6 +25,9 @@ bool gap_kept(const PlacedCharts& placed, const Freedoms& freedom, const Gap& ga
 /// They reach the bound times `spare`, within the largest distortion allowed.
 bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare = 1);
 
+/// Rectangles go on to the optimum under the bound, unless that was not to be or there are thousands of charts to bend.
+bool goes_on(const Refinement& run, std::size_t charts);
+
 /// Thousands of charts are in each other's way: bending them takes a minute, and a little less gap spares it.
 bool rather_moves(const Refinement& run, std::size_t charts);
 

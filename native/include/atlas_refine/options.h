@@ -90,7 +90,7 @@ struct RefineOptions {
   bool trade_off = false;
   std::optional<int> point;  ///< with trade_off: which of them is wanted, whatever the limits; the last where there are fewer
   /// Go on to the least of the objective under the bound where less would already hold it. Rectangles do so anyway, unless
-  /// until_input.
+  /// until_input, or in a thousand pieces and more.
   bool relax = false;
   /// Where the bound is not reached return the best valid atlas within max_distortion, do not throw: PE against what it costs;
   /// with Seams::Needed also where max_distortion is missed, the least distorted one.
