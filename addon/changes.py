@@ -4,6 +4,17 @@
 import bpy
 
 
+def once_drawn(function, seconds=0.0):
+    """Calls it by and by: what makes data, as reading a mesh in edit mode does, must not run while something is drawn."""
+    if not bpy.app.timers.is_registered(function):
+        bpy.app.timers.register(function, first_interval=seconds)
+
+
+def no_longer(function):
+    if bpy.app.timers.is_registered(function):
+        bpy.app.timers.unregister(function)
+
+
 class Watch:
     """From register() on: before_load() before another file is opened, changed() after undo and redo, and after a mesh changed while
     is_needed() says so."""

@@ -4,6 +4,8 @@
 Batches are built when a mesh, its UVs or a setting that they show has changed, and drawn as they are until then."""
 
 import time
+from dataclasses import dataclass
+from functools import cached_property
 
 import bpy
 import gpu
@@ -15,7 +17,7 @@ from .bridge import mesh as bridge
 from .bridge import parts as objects
 from .bridge import versions
 from .bridge.texture import find_texture
-from .changes import Watch
+from .changes import Watch, no_longer, once_drawn
 from .core.overlay import Look, Source, picture_of
 from .drawing import redraw_panels, redraw_views
 from .properties import to_options
@@ -32,47 +34,84 @@ shown = {"stretch": False, "seams": False, "gap": False}
 
 
 class Batches:
-    """One object's, ready to draw."""
+    """One object's, made when they are first drawn."""
 
     def __init__(self, picture):
-        faces, lines = versions.shader("FLAT_COLOR"), versions.shader("POLYLINE_UNIFORM_COLOR")
-        self.faces = {
-            where: batch_for_shader(faces, "TRIS", {"pos": points, "color": picture.colours})
-            for where, points in picture.faces.items()
+        self._picture = picture
+
+    @cached_property
+    def faces(self):
+        shader = versions.shader("FLAT_COLOR")
+        return {
+            where: batch_for_shader(shader, "TRIS", {"pos": points, "color": self._picture.colours})
+            for where, points in self._picture.faces.items()
             if len(points)
         }
-        self.lines = {
-            (layer, where): batch_for_shader(lines, "LINES", {"pos": points})
-            for layer, places in picture.lines.items()
+
+    @cached_property
+    def lines(self):
+        shader = versions.shader("POLYLINE_UNIFORM_COLOR")
+        return {
+            (layer, where): batch_for_shader(shader, "LINES", {"pos": points})
+            for layer, places in self._picture.lines.items()
             for where, points in places.items()
             if len(points)
         }
 
 
+@dataclass(frozen=True)
+class Wanted:
+    """What batches are built of, besides the meshes themselves, by name: undo and other files replace Blender's data."""
+
+    scene: str
+    view_layer: str
+    objects: tuple  # (name, mode, UV map) of each
+    last: int  # which result the panel shows
+    look: Look
+
+
 class Cache:
-    """The batches of the objects that are looked at, by name, and what they were built for."""
+    """The batches of the objects that are looked at, by name, for each of the last Wanted: editors may show different images. They
+    are built between two drawings, since reading makes data; meanwhile what was built before is drawn."""
+
+    MOST = 4
 
     def __init__(self):
         self.clear()
 
     def clear(self):
-        self.batches, self.key, self.stale, self.not_before = {}, None, True, 0.0
+        self._built, self._asked, self._latest, self._not_before = {}, {}, {}, 0.0
 
-    def of(self, context):
-        found = [obj for obj in objects.objects_of(context) if not objects.why_not(obj)]
-        key = _key(context, found)
-        if key != self.key or (self.stale and time.monotonic() >= self.not_before):
-            began = time.monotonic()
-            self.batches = _build(context, found)
-            self.key, self.stale = key, False
-            took = time.monotonic() - began
-            self.not_before = began + took / BUSY_PART
-        elif self.stale and not bpy.app.timers.is_registered(redraw_views):
-            bpy.app.timers.register(redraw_views, first_interval=max(self.not_before - time.monotonic(), 0.01))
-        return self.batches
+    def outdate(self):
+        """The meshes have changed."""
+        self._built.clear()
+
+    def of(self, wanted):
+        if wanted in self._built:
+            return self._built[wanted]
+        self._asked[wanted] = None
+        once_drawn(_build_asked, max(self._not_before - time.monotonic(), 0.0))
+        return self._latest
+
+    def build(self):
+        began = time.monotonic()
+        for wanted in self._asked:
+            self._built[wanted] = self._latest = _build(wanted)
+        self._asked.clear()
+        for old in list(self._built)[: -self.MOST]:
+            del self._built[old]
+        took = time.monotonic() - began
+        self._not_before = began + took / BUSY_PART
+        redraw_views()
 
 
 _cache = Cache()
+
+
+def _build_asked():
+    _cache.build()
+
+
 _handles = []
 
 
@@ -114,11 +153,14 @@ def _look(context, obj):
     )
 
 
-def _key(context, found):
-    """What the batches depend on besides the meshes themselves."""
+def _batches(context):
+    found = [obj for obj in objects.objects_of(context) if not objects.why_not(obj)]
+    if not found:
+        return {}
     uv_map = context.scene.atlas_refine.uv_map
     names = tuple((obj.name, obj.mode, _map_of(obj, uv_map)) for obj in found)
-    return names, id(tasks.last), _look(context, found[0]) if found else None
+    place = context.scene.name, context.view_layer.name
+    return _cache.of(Wanted(*place, names, id(tasks.last), _look(context, found[0])))
 
 
 def _map_of(obj, wanted):
@@ -128,23 +170,28 @@ def _map_of(obj, wanted):
         return ""
 
 
-def _build(context, found):
-    uv_map = context.scene.atlas_refine.uv_map
-    sources = {obj.name: _source(obj, uv_map, context.view_layer.depsgraph) for obj in found}
+def _build(wanted):
+    scene = bpy.data.scenes.get(wanted.scene)
+    layer = scene and scene.view_layers.get(wanted.view_layer)
+    if layer is None:
+        return {}
+    found = [(bpy.data.objects.get(name), uv_map) for name, _, uv_map in wanted.objects]
+    sources = {obj.name: _source(obj, uv_map, layer.depsgraph) for obj, uv_map in found if obj and obj.type == "MESH"}
     sources = {name: source for name, source in sources.items() if source is not None}
     if not sources:
         return {}
-    pictures = picture_of(engine.module, list(sources.values()), _look(context, found[0]))
+    pictures = picture_of(engine.module, list(sources.values()), wanted.look)
     return {name: Batches(picture) for name, picture in zip(sources, pictures, strict=True)}
 
 
 def _source(obj, uv_map, depsgraph):
     """None for a mesh that cannot be read, of which the operators say why."""
     try:
-        atlas = bridge.read_atlas(obj, bridge.find_uv_map(obj.data, uv_map))
+        with bridge.mesh_to_read(obj) as mesh:
+            atlas, triangles = bridge.atlas_of(mesh, uv_map), bridge.triangles_of(mesh)
     except bridge.MeshError:
         return None
-    triangles, shown = bridge.read_triangles(obj), bridge.read_shown_positions(obj, depsgraph)
+    shown = bridge.read_shown_positions(obj, depsgraph)
     return Source(atlas, triangles, objects.scale_of(obj), tasks.new_seams(obj.name), shown)
 
 
@@ -153,7 +200,7 @@ def _draw_in_uv_editor():
     if context.space_data.mode != "UV":
         return
     gpu.state.blend_set("ALPHA")
-    for batches in _cache.of(context).values():
+    for batches in _batches(context).values():
         _draw_faces(batches, "uv")
         _draw_lines(context, batches, "uv")
     gpu.state.blend_set("NONE")
@@ -165,7 +212,7 @@ def _draw_in_3d_view():
         return
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_test_set("LESS_EQUAL")
-    for name, batches in _cache.of(context).items():
+    for name, batches in _batches(context).items():
         obj = bpy.data.objects.get(name)
         if obj is None or not obj.visible_get():
             continue
@@ -204,17 +251,13 @@ def _draw_lines(context, batches, where):
         batch.draw(lines)
 
 
-def _changed():
-    _cache.stale = True
-
-
 def _switch_off():
     for layer in shown:
         shown[layer] = False
     _remove()
 
 
-_watch = Watch(_switch_off, _changed, is_needed=lambda: _handles)
+_watch = Watch(_switch_off, _cache.outdate, is_needed=lambda: _handles)
 
 
 def register():
@@ -223,6 +266,5 @@ def register():
 
 def unregister():
     _switch_off()
-    if bpy.app.timers.is_registered(redraw_views):
-        bpy.app.timers.unregister(redraw_views)
+    no_longer(_build_asked)
     _watch.unregister()

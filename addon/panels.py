@@ -121,7 +121,7 @@ class _Result:
 
     @classmethod
     def poll(cls, context):
-        return super().poll(context) and tasks.last_if_true() is not None
+        return super().poll(context) and tasks.last_to_draw() is not None
 
     def draw(self, context):
         for done in tasks.last or ():

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One call of the operator: read the meshes, run the engine beside Blender, write what comes. At most one runs with a window's progress."""
 
-import hashlib
 import os
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
@@ -9,12 +8,12 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from . import engine, preferences
+from . import drawing, engine, preferences
 from .bridge import cuts
 from .bridge import mesh as bridge
 from .bridge import parts as objects
 from .bridge.texture import active_tile, find_texture
-from .changes import Watch
+from .changes import Watch, no_longer, once_drawn
 from .core.atlas import stored_uvs
 from .core.cuts import plan_cut, seam_edges
 from .core.density import too_small
@@ -83,14 +82,14 @@ class Atlas:
         """Writes the result, or raises one of FAILURES with all meshes as they were."""
         objs = [self._still_there(part) for part in self.parts]
         if result.intervention == "unchanged":
-            return self._done(result, [part.uv_map for part in self.parts])
+            return self._done(result, self.prints())
         uvs = stored_uvs(result.corner_uvs)
         write = self._write_uvs if result.cut is None else self._write_cut
         with ExitStack() as on_failure:
             maps = [self._target(obj, part, on_failure) for obj, part in zip(objs, self.parts, strict=True)]
-            seams = write(objs, maps, result, uvs, on_failure)
+            seams, prints = write(objs, maps, result, uvs, on_failure)
             on_failure.pop_all()
-        return self._done(result, maps, seams)
+        return self._done(result, prints, seams)
 
     def _still_there(self, part):
         obj = bpy.data.objects.get(part.name)
@@ -111,13 +110,14 @@ class Atlas:
     def _write_uvs(self, objs, maps, result, uvs, on_failure):
         joined = self.request.joined
         seams = [seam_edges(part.atlas, joined.seams_of(k, result.new_seams)) for k, part in enumerate(self.parts)]
-        for k, (obj, uv_map) in enumerate(zip(objs, maps, strict=True)):
-            bridge.write_uvs(obj, uv_map, joined.uvs_of(k, uvs))
-            on_failure.callback(bridge.write_uvs, obj, uv_map, self.parts[k].atlas.corner_uvs)
+        written = [replace(part.atlas, corner_uvs=joined.uvs_of(k, uvs)) for k, part in enumerate(self.parts)]
+        for part, obj, uv_map, atlas in zip(self.parts, objs, maps, written, strict=True):
+            on_failure.callback(bridge.write_uvs, obj, uv_map, part.atlas.corner_uvs)
+            bridge.write_uvs(obj, uv_map, atlas.corner_uvs)
         if self.options.mark_seams:
             for obj, edges in zip(objs, seams, strict=True):
                 bridge.mark_seams(obj, edges)
-        return seams
+        return seams, self._prints_of(maps, [atlas.fingerprint() for atlas in written])
 
     def _write_cut(self, objs, maps, result, uvs, _on_failure):
         """What can fail is done for every object before the first is changed: divided faces are not put together again."""
@@ -129,16 +129,18 @@ class Atlas:
             seams.append(plan.new_seams)
         for write in rehearsed:
             write()
-        return seams
+        return seams, self._prints_of(maps, [_print(obj.name, uv_map) for obj, uv_map in zip(objs, maps, strict=True)])
 
-    def _done(self, result, maps, seams=()):
-        prints = self.prints(maps)
+    def _done(self, result, prints, seams=()):
         new_seams = tuple(zip((part.name for part in self.parts), seams, strict=False))
         return self._shown(prints, self.title, result=result, left=self._left(result), new_seams=new_seams)
 
-    def prints(self, maps):
-        """By which the meshes are known again."""
-        return tuple((part.name, uv_map, _print(part.name, uv_map)) for part, uv_map in zip(self.parts, maps, strict=True))
+    def prints(self):
+        """By which the meshes are known again, as they were read."""
+        return self._prints_of([part.uv_map for part in self.parts], [part.atlas.fingerprint() for part in self.parts])
+
+    def _prints_of(self, maps, fingerprints):
+        return tuple(zip((part.name for part in self.parts), maps, fingerprints, strict=True))
 
     def _left(self, result):
         """Nothing where faces were divided: their numbers are others now."""
@@ -149,7 +151,7 @@ class Atlas:
 
     def measure(self):
         """What the panel shows of the meshes as they are: a Done for each texture or tile."""
-        prints = self.prints([part.uv_map for part in self.parts])
+        prints = self.prints()
         box = {name: self.request.arguments[name] for name in ("box_aspect", "in_texture")}
         for name, arrays in self.request.boxes():
             measures = engine.measure(*arrays, **box)
@@ -325,6 +327,18 @@ def last_if_true():
     return last
 
 
+def last_to_draw():
+    """`last`; where something may have changed the meshes they are looked at once it is drawn."""
+    if last is not None and _in_doubt:
+        once_drawn(_look_again)
+    return last
+
+
+def _look_again():
+    if last is not None and last_if_true() is None:
+        drawing.redraw_panels(bpy.context)
+
+
 def is_true_of(prints):
     """Whether the meshes are as they were."""
     return all(_print(name, uv_map) == known for name, uv_map, known in prints)
@@ -347,10 +361,7 @@ def _print(object_name, uv_map):
     obj = bpy.data.objects.get(object_name)
     if obj is None or obj.type != "MESH" or uv_map not in obj.data.uv_layers:
         return None
-    digest = hashlib.sha1(usedforsecurity=False)
-    for array in bridge.read_atlas(obj, uv_map).as_tuple():
-        digest.update(array.tobytes())
-    return digest.hexdigest()
+    return bridge.read_atlas(obj, uv_map).fingerprint()
 
 
 def stop_running():
@@ -380,5 +391,6 @@ def register():
 
 
 def unregister():
+    no_longer(_look_again)
     _forget()
     _watch.unregister()

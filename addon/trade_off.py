@@ -3,8 +3,10 @@
 
 from dataclasses import dataclass
 
-from . import tasks
-from .changes import Watch
+import bpy
+
+from . import drawing, tasks
+from .changes import Watch, no_longer, once_drawn
 from .core.options import Options
 from .core.summary import trade_off_lines
 
@@ -59,7 +61,7 @@ class Search(tasks.Run):
             self.problems.append((atlas.title, "the map holds what is asked as it is, and there is nothing to choose"))
             return ()
         lines = tuple(trade_off_lines(result.cuts.trade_off))
-        shown = Choice(atlas.options, lines, atlas.prints([part.uv_map for part in atlas.parts]))
+        shown = Choice(atlas.options, lines, atlas.prints())
         _is_true, _in_doubt = True, False
         return lines
 
@@ -68,14 +70,17 @@ def why_not(options):
     """Why nothing can be picked from `shown` with these options; empty where it can."""
     if options.for_trade_off() != shown.options:
         return "Other options now"
-    return "" if _is_still_true() else "Undo brings it back"
-
-
-def _is_still_true():
-    global _is_true, _in_doubt
     if _in_doubt:
+        once_drawn(look_again)
+    return "" if _is_true else "Undo brings it back"
+
+
+def look_again():
+    """At the meshes."""
+    global _is_true, _in_doubt
+    if shown is not None and _in_doubt:
         _is_true, _in_doubt = tasks.is_true_of(shown.prints), False
-    return _is_true
+        drawing.redraw_panels(bpy.context)
 
 
 def _forget():
@@ -97,5 +102,6 @@ def register():
 
 
 def unregister():
+    no_longer(look_again)
     _forget()
     _watch.unregister()

@@ -1,11 +1,17 @@
 """The operator in edit mode: reads what is not yet in the mesh, writes, and stays in edit mode."""
 
+import sys
+import time
 import unittest
 
 import bmesh
 import bpy
 import numpy as np
-from support import add_mesh, changes, fresh_scene, get_uvs, packing_efficiency, snapshot
+import shapes
+from support import MODULE, add_mesh, changes, fresh_scene, get_uvs, packing_efficiency, snapshot
+
+#: Edit mode takes at most twice object mode's time; a loaded machine may make more of it.
+MOST_TIMES = 3
 
 
 class EditMode(unittest.TestCase):
@@ -51,3 +57,60 @@ class EditMode(unittest.TestCase):
         self.assertEqual(self.obj.mode, "EDIT")
         self.leave()
         self.assertEqual(changes(before, snapshot(self.obj)), [])
+
+    def test_the_longest_names_do_not_disturb(self):
+        """For which Blender 4.x has no room beside its own prefixes."""
+        self.leave()
+        obj = add_mesh(name="Named", uv_map="the longest name that a UV map can have in some Blender: 67 bytes..")
+        before = get_uvs(obj.data.uv_layers.active)
+        bpy.ops.object.mode_set(mode="EDIT")
+        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.8), {"FINISHED"})
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertNotEqual(get_uvs(obj.data.uv_layers.active).tobytes(), before.tobytes())
+
+    def test_attributes_of_flags_count(self):
+        self.leave()
+        results = []
+        for name in ("", "Rigid"):
+            obj = add_mesh(name=f"With {name}")
+            obj.data.attributes.new("Rigid", "BOOLEAN", "FACE").data[60].value = True
+            bpy.ops.object.mode_set(mode="EDIT")
+            self.assertEqual(bpy.ops.uv.atlas_refine(keep_shape=name, density="EQUAL"), {"FINISHED"})
+            bpy.ops.object.mode_set(mode="OBJECT")
+            results.append(get_uvs(obj.data.uv_layers.active).tobytes())
+        self.assertFalse(results[0] == results[1])
+
+    def test_nothing_is_left_behind(self):
+        meshes = len(bpy.data.meshes)
+        bpy.ops.uv.atlas_refine()
+        self.assertEqual(len(bpy.data.meshes), meshes)
+
+
+class Speed(unittest.TestCase):
+    def setUp(self):
+        fresh_scene()
+
+    def seconds(self, obj, mode):
+        """Of reading an atlas and of writing it, of the processor's time; the least of several."""
+        tasks, bridge = sys.modules[f"{MODULE}.tasks"], sys.modules[f"{MODULE}.bridge.mesh"]
+        options = sys.modules[f"{MODULE}.properties"].to_options(bpy.context.scene.atlas_refine)
+        bpy.ops.object.mode_set(mode=mode)
+        taken = []
+        for _ in range(5):
+            began = time.process_time()
+            atlas = tasks.Atlas(bpy.context, [obj], options)
+            (part,) = atlas.parts
+            self.assertTrue(bridge.read_atlas(obj, part.uv_map).same_as(part.atlas))
+            bridge.write_uvs(obj, part.uv_map, part.atlas.corner_uvs)
+            atlas.request.density(options, None, 1.0)
+            taken.append(time.process_time() - began)
+        return min(taken)
+
+    def test_edit_mode_takes_about_as_long_as_object_mode(self):
+        obj = add_mesh(shapes.join(shapes.grid(150, 150)))
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        in_object_mode, in_edit_mode = (self.seconds(obj, mode) for mode in ("OBJECT", "EDIT"))
+        quads = len(obj.data.polygons)
+        print(f"    {quads} quads: object mode {in_object_mode:.3f} s, edit mode {in_edit_mode:.3f} s", flush=True)
+        self.assertLess(in_edit_mode, MOST_TIMES * in_object_mode)

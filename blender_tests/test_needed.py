@@ -114,6 +114,7 @@ class TradeOff(unittest.TestCase):
         self.addCleanup(bpy.ops.wm.read_homefile, use_empty=True, use_factory_startup=True)
 
     def why_not(self):
+        self.module.look_again()  # which the panel, once drawn, has a timer do
         return self.module.why_not(sys.modules[f"{MODULE}.properties"].to_options(self.settings))
 
     def test_it_lists_what_there_is_and_changes_nothing(self):

@@ -7,7 +7,7 @@ import bpy
 from ..core.cuts import same_faces
 from . import versions
 from .divide import divide
-from .mesh import MeshError, read_edit_mesh
+from .mesh import MeshError, atlas_of
 
 
 def check_divisible(obj):
@@ -89,9 +89,18 @@ def _custom_normals_in_edit_mode(live, mesh):
         bpy.data.meshes.remove(flushed)
 
 
+def _atlas_of_bmesh(built, uv_map):
+    flat = bpy.data.meshes.new("Atlas Refine")
+    try:
+        built.to_mesh(flat)
+        return atlas_of(flat, uv_map)
+    finally:
+        bpy.data.meshes.remove(flat)
+
+
 def _check(built, uv_map, plan):
     """The plan's corner for each corner of the BMesh, which must hold what was planned to the last bit."""
-    stored = read_edit_mesh(built, uv_map)
+    stored = _atlas_of_bmesh(built, uv_map)
     corners = same_faces(stored, plan.atlas)
     if (
         corners is None

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads an object's mesh and UV map into arrays and writes UVs back, in object mode and in edit mode."""
 
+from contextlib import contextmanager
+
 import bmesh
+import bpy
 import numpy as np
 
 from ..core.atlas import AtlasArrays
+from ..core.borders import are_among
 from . import versions
 
 
@@ -32,31 +36,44 @@ def has_uneven_scale(obj):
     return scale.max() > scale.min() * 1.001
 
 
+@contextmanager
+def mesh_to_read(obj):
+    """The object's mesh with its arrays; edit mode's, pending changes included, as a copy that is gone afterwards: through a BMesh
+    Python would read it corner by corner. It makes data, so never while something is drawn."""
+    if obj.mode != "EDIT":
+        yield obj.data
+        return
+    copy = bpy.data.meshes.new("Atlas Refine")
+    try:
+        bmesh.from_edit_mesh(obj.data).to_mesh(copy)
+        yield copy
+    finally:
+        bpy.data.meshes.remove(copy)
+
+
 def read_atlas(obj, uv_map):
     """The mesh and the named UV map as it is now; edit mode's pending changes included."""
-    if obj.mode == "EDIT":
-        return read_edit_mesh(bmesh.from_edit_mesh(obj.data), uv_map)
-    return _read_mesh(obj.data, uv_map)
+    with mesh_to_read(obj) as mesh:
+        return atlas_of(mesh, uv_map)
 
 
 def write_uvs(obj, uv_map, uvs):
-    """Stores (C, 2) float32 UVs in the named map and nothing else. Raises MeshError, with the old UVs back in place, where
-    what is then stored is not what was given."""
-    old = read_atlas(obj, uv_map).corner_uvs
-    _store(obj, uv_map, uvs)
-    if read_atlas(obj, uv_map).corner_uvs.tobytes() != uvs.tobytes():
-        _store(obj, uv_map, old)
-        raise MeshError("Blender did not store the new UVs as they were given")
-
-
-def read_triangles(obj):
-    """How Blender divides faces of more than three corners: (T, 3) int32 corners."""
-    if obj.mode == "EDIT":
-        mesh = bmesh.from_edit_mesh(obj.data)
-        corners = {loop: corner for corner, loop in enumerate(loop for face in mesh.faces for loop in face.loops)}
-        rows = [[corners[loop] for loop in three] for three in mesh.calc_loop_triangles() if len(three[0].face.loops) > 3]
-        return np.array(rows, dtype=np.int32).reshape(-1, 3)
+    """Stores (C, 2) float32 UVs in the named map and nothing else. Raises MeshError where what is then stored is not what was
+    given: the old ones are to be written again."""
     mesh = obj.data
+    if obj.mode == "EDIT":
+        _write_edit_mesh(bmesh.from_edit_mesh(mesh), uv_map, uvs)
+        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+    else:
+        versions.write_uvs(mesh.uv_layers[uv_map], uvs)
+        mesh.update()
+    with mesh_to_read(obj) as stored:
+        if versions.read_uvs(stored.uv_layers[uv_map], len(stored.loops)).tobytes() != uvs.tobytes():
+            raise MeshError("Blender did not store the new UVs as they were given")
+
+
+def triangles_of(mesh):
+    """How Blender divides faces of more than three corners: (T, 3) int32 corners."""
     versions.calc_loop_triangles(mesh)
     loops = integers(mesh.loop_triangles, "loops", 3).reshape(-1, 3)
     faces = integers(mesh.loop_triangles, "polygon_index")
@@ -74,12 +91,6 @@ def read_shown_positions(obj, depsgraph):
     if not np.array_equal(integers(shown.loops, "vertex_index"), integers(mesh.loops, "vertex_index")):
         return None
     return _positions(shown)
-
-
-def read_material_indices(obj):
-    if obj.mode == "EDIT":
-        return np.array([face.material_index for face in bmesh.from_edit_mesh(obj.data).faces], dtype=np.int32)
-    return integers(obj.data.polygons, "material_index")
 
 
 def add_copy(obj, uv_map):
@@ -106,30 +117,19 @@ def mark_seams(obj, edges):
     """Marks edges, (S, 2) vertices, as seams."""
     if not len(edges):
         return
-    wanted = {tuple(sorted(edge)) for edge in np.asarray(edges).tolist()}
     mesh = obj.data
     if obj.mode == "EDIT":
         edit = bmesh.from_edit_mesh(mesh)
-        edit.verts.index_update()
-        for edge in edit.edges:
-            if tuple(sorted(vert.index for vert in edge.verts)) in wanted:
+        edit.verts.ensure_lookup_table()
+        for a, b in np.asarray(edges).tolist():
+            edge = edit.edges.get((edit.verts[a], edit.verts[b]))
+            if edge is not None:
                 edge.seam = True
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
         return
-    for edge in mesh.edges:
-        if tuple(sorted(edge.vertices)) in wanted:
-            edge.use_seam = True
+    for index in np.flatnonzero(are_among(integers(mesh.edges, "vertices", 2).reshape(-1, 2), edges)).tolist():
+        mesh.edges[index].use_seam = True
     mesh.update()
-
-
-def _store(obj, uv_map, uvs):
-    mesh = obj.data
-    if obj.mode == "EDIT":
-        _write_edit_mesh(bmesh.from_edit_mesh(mesh), uv_map, uvs)
-        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
-    else:
-        versions.write_uvs(mesh.uv_layers[uv_map], uvs)
-        mesh.update()
 
 
 def integers(elements, attribute, each=1):
@@ -139,7 +139,10 @@ def integers(elements, attribute, each=1):
     return values
 
 
-def _read_mesh(mesh, uv_map):
+def atlas_of(mesh, uv_map):
+    """A mesh of mesh_to_read()."""
+    if uv_map not in mesh.uv_layers:
+        raise MeshError(f'the mesh has no UV map "{uv_map}" any more')
     corner_vertices = integers(mesh.loops, "vertex_index")
     starts, sizes = integers(mesh.polygons, "loop_start"), integers(mesh.polygons, "loop_total")
     offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
@@ -155,20 +158,9 @@ def _positions(mesh):
     return positions.reshape(-1, 3)
 
 
-def read_edit_mesh(mesh, uv_map):
-    layer = _edit_layer(mesh, uv_map)
-    mesh.verts.index_update()
-    positions = np.array([value for vert in mesh.verts for value in vert.co], dtype=np.float32).reshape(-1, 3)
-    sizes = [len(face.loops) for face in mesh.faces]
-    offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
-    corner_vertices = np.array([loop.vert.index for face in mesh.faces for loop in face.loops], dtype=np.int32)
-    uvs = np.array([value for face in mesh.faces for loop in face.loops for value in loop[layer].uv], dtype=np.float32)
-    return AtlasArrays(positions, offsets, corner_vertices, uvs.reshape(-1, 2))
-
-
 def _write_edit_mesh(mesh, uv_map, uvs):
     layer = _edit_layer(mesh, uv_map)
-    rows = iter(uvs.tolist())
+    rows = zip(*uvs.T.tolist(), strict=True)  # one after the other: a list of all would keep Python's garbage collector busy
     for face in mesh.faces:
         for loop in face.loops:
             loop[layer].uv = next(rows)

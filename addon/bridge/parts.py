@@ -42,23 +42,25 @@ def users_of(mesh):
 def read_part(context, obj, options, material_numbers):
     """`material_numbers`: a dict that is shared by the parts of an atlas, and grows."""
     uv_map = bridge.find_uv_map(obj.data, options.uv_map)
-    atlas = bridge.read_atlas(obj, uv_map)
-    hidden, selected, pinned = selection.read_flags(obj, uv_map, atlas.face_offsets, selection.by_faces(context))
-    return Part(
-        name=obj.name,
-        uv_map=uv_map,
-        atlas=atlas,
-        triangles=bridge.read_triangles(obj),
-        hidden=hidden,
-        selected=selected,
-        pinned=pinned,
-        materials=_materials(obj, material_numbers),
-        scale=scale_of(obj),
-        keep_shape=named.face_flags(obj, options.keep_shape, atlas) if options.keep_shape else None,
-        importance=named.importance(obj, options.importance, atlas) if options.importance else None,
-        no_seam=named.edges(obj, options.no_seam) if options.no_seam else None,
-        prefer_seam=named.edges(obj, options.prefer_seam) if options.prefer_seam else None,
-    )
+    with bridge.mesh_to_read(obj) as mesh:
+        atlas = bridge.atlas_of(mesh, uv_map)
+        selected = selection.selected_faces(mesh, uv_map, selection.by_faces(context)) if obj.mode == "EDIT" else None
+        painted = named.Painted(mesh, obj.vertex_groups, atlas)
+        return Part(
+            name=obj.name,
+            uv_map=uv_map,
+            atlas=atlas,
+            triangles=bridge.triangles_of(mesh),
+            hidden=selection.hidden_faces(mesh),
+            selected=np.ones(len(mesh.polygons), dtype=bool) if selected is None else selected,
+            pinned=selection.pinned_faces(mesh, uv_map),
+            materials=_materials(obj, mesh, material_numbers),
+            scale=scale_of(obj),
+            keep_shape=painted.face_flags(options.keep_shape),
+            importance=painted.importance(options.importance),
+            no_seam=painted.edges(options.no_seam),
+            prefer_seam=painted.edges(options.prefer_seam),
+        )
 
 
 def scale_of(obj):
@@ -66,8 +68,8 @@ def scale_of(obj):
     return float(abs(obj.matrix_world.determinant()) ** (1 / 3)) or 1.0
 
 
-def _materials(obj, numbers):
+def _materials(obj, mesh, numbers):
     names = [slot.material.name if slot.material else "" for slot in obj.material_slots] or [""]
     of_slots = np.array([numbers.setdefault(name, len(numbers)) for name in names])
-    indices = bridge.read_material_indices(obj)
+    indices = bridge.integers(mesh.polygons, "material_index")
     return of_slots[np.clip(indices, 0, len(of_slots) - 1)]

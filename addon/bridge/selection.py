@@ -5,6 +5,7 @@ import bmesh
 import numpy as np
 
 from . import versions
+from .mesh import integers
 
 
 def by_faces(context):
@@ -13,25 +14,33 @@ def by_faces(context):
     return in_3d_view or context.scene.tool_settings.use_uv_select_sync
 
 
-def read_flags(obj, uv_map, face_offsets, faces_count):
-    """(hidden, selected, pinned) faces, bool. In object mode all are selected. `faces_count`: by_faces()."""
-    if obj.mode == "EDIT":
-        return _of_edit_mesh(bmesh.from_edit_mesh(obj.data), uv_map, faces_count)
-    mesh = obj.data
-    hidden = np.zeros(len(mesh.polygons), dtype=bool)
-    mesh.polygons.foreach_get("hide", hidden)
-    corners = versions.pinned_corners(mesh, uv_map)
-    pinned = np.zeros(len(hidden), dtype=bool) if corners is None else np.logical_or.reduceat(corners, face_offsets[:-1])
-    return hidden, np.ones(len(hidden), dtype=bool), pinned
+def hidden_faces(mesh):
+    """(F,) bool, here and below, of a mesh of mesh_to_read()."""
+    return _flags(mesh.polygons, "hide")
 
 
-def _of_edit_mesh(mesh, uv_map, faces_count):
-    layer = mesh.loops.layers.uv[uv_map]
-    rows = []
-    for face in mesh.faces:
-        selected = face.select and (faces_count or all(versions.is_uv_selected(loop, layer) for loop in face.loops))
-        rows.append((face.hide, selected, any(loop[layer].pin_uv for loop in face.loops)))
-    return np.array(rows, dtype=bool).reshape(-1, 3).T
+def selected_faces(mesh, uv_map, faces_count):
+    """`faces_count`: by_faces(), else all corners of a face have to be selected."""
+    faces = _flags(mesh.polygons, "select")
+    return faces if faces_count else faces & _reduced(np.logical_and, mesh, versions.selected_corners(mesh, uv_map))
+
+
+def pinned_faces(mesh, uv_map):
+    """Those with a pinned corner."""
+    return _reduced(np.logical_or, mesh, versions.pinned_corners(mesh, uv_map))
+
+
+def _flags(elements, attribute):
+    flags = np.zeros(len(elements), dtype=bool)
+    elements.foreach_get(attribute, flags)
+    return flags
+
+
+def _reduced(function, mesh, corners):
+    """Of each face's corners; none where there is nothing about corners."""
+    if corners is None or not len(mesh.polygons):
+        return np.zeros(len(mesh.polygons), dtype=bool)
+    return function.reduceat(corners, integers(mesh.polygons, "loop_start"))
 
 
 def select_faces(obj, uv_map, faces):

@@ -37,23 +37,31 @@ def copy_active_uv_map(layers, name):
 
 
 def pinned_corners(mesh, uv_map):
-    """(C,) bool in object mode, None where no corner ever was pinned."""
-    layer = mesh.uv_layers[uv_map]
-    pinned = np.zeros(len(mesh.loops), dtype=bool)
-    if not hasattr(layer, "pin"):  # before 3.5
-        layer.data.foreach_get("pin_uv", pinned)
-        return pinned
-    # Not the layer's own property: to read it there may make the layer of pins.
-    attribute = mesh.attributes.get(f".pn.{uv_map}")
+    """(C,) bool of a mesh in object mode, None where no corner ever was pinned."""
+    # Not the layer's own property: to read it may make the layer of pins.
+    return _corner_flags(mesh, uv_map, "pin_uv", (_attribute_name(".pn.", uv_map),))
+
+
+def selected_corners(mesh, uv_map):
+    """The same of what is selected in the UV editor, which has one selection for all maps from 5.0 on."""
+    return _corner_flags(mesh, uv_map, "select", (_attribute_name(".vs.", uv_map), ".uv_select_vert"))
+
+
+def _attribute_name(prefix, uv_map):
+    """As Blender cuts it off."""
+    return (prefix + uv_map).encode()[:67].decode(errors="ignore")
+
+
+def _corner_flags(mesh, uv_map, before_3_5, attributes):
+    flags, layer = np.zeros(len(mesh.loops), dtype=bool), mesh.uv_layers[uv_map]
+    if not hasattr(layer, "uv"):  # before 3.5
+        layer.data.foreach_get(before_3_5, flags)
+        return flags
+    attribute = next(filter(None, map(mesh.attributes.get, attributes)), None)
     if attribute is None:
         return None
-    attribute.data.foreach_get("value", pinned)
-    return pinned
-
-
-def is_uv_selected(loop, layer):
-    """Of a BMesh corner in the UV editor."""
-    return loop.uv_select_vert if hasattr(loop, "uv_select_vert") else loop[layer].select  # 5.0 and later; before
+    attribute.data.foreach_get("value", flags)
+    return flags
 
 
 def select_uv(loop, layer, selected):

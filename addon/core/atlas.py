@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A mesh with one UV map as arrays: what the engine reads."""
 
+import hashlib
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,12 @@ class AtlasArrays:
 
     def as_tuple(self):
         return self.positions, self.face_offsets, self.corner_vertices, self.corner_uvs
+
+    def fingerprint(self):
+        digest = hashlib.sha1(usedforsecurity=False)
+        for array in self.as_tuple():
+            digest.update(array.tobytes())
+        return digest.hexdigest()
 
     def same_as(self, other):
         """Whether every value is the same, bit for bit."""

@@ -27,13 +27,14 @@ def border_corners(atlas):
 def edge_corners(atlas, edges):
     """Corners at which one of these edges, (S, 2) vertices, begins in some face."""
     following = following_corners(atlas.face_offsets)
-    count = len(atlas.positions)
+    return np.flatnonzero(are_among(np.column_stack([atlas.corner_vertices, atlas.corner_vertices[following]]), edges))
 
-    def number(a, b):
-        return np.minimum(a, b).astype(np.int64) * count + np.maximum(a, b)
 
-    wanted = number(edges[:, 0], edges[:, 1])
-    return np.flatnonzero(np.isin(number(atlas.corner_vertices, atlas.corner_vertices[following]), wanted))
+def are_among(edges, wanted):
+    """(n,) bool of (n, 2) vertices: those edges that are among (S, 2) others, whichever end comes first."""
+    count = max((int(ends.max()) for ends in (edges, wanted) if len(ends)), default=0) + 1
+    numbers = [ends.min(axis=1).astype(np.int64) * count + ends.max(axis=1) for ends in (edges, wanted)]
+    return np.isin(*numbers)
 
 
 def segments(values, face_offsets, corners):

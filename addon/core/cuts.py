@@ -167,6 +167,8 @@ def _places(positions):
 def seam_edges(atlas, new_seams):
     """The edges that lie where new seams do. Where vertices are doubled a seam has two edges, or goes from one double to the
     other: the engine takes vertices at one position for one."""
+    if not len(new_seams):  # which positions are equal takes long to find
+        return np.zeros((0, 2), dtype=np.int32)
     places = _places(atlas.positions)
     following = following_corners(atlas.face_offsets)
     edges = np.sort(np.column_stack([atlas.corner_vertices, atlas.corner_vertices[following]]), axis=1)

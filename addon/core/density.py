@@ -41,14 +41,15 @@ class Density:
 
 def surface_area(positions, face_offsets, corner_vertices):
     """Of all faces, as flat as they can be."""
-    corners = positions.astype(np.float64)[corner_vertices]
-    return float(np.linalg.norm(_twice_areas(corners, face_offsets), axis=1).sum()) / 2
+    x, y, z = positions.astype(np.float64).T
+    flat = [(x, y), (y, z), (z, x)]
+    twice = [_twice_areas(a[corner_vertices], b[corner_vertices], face_offsets) for a, b in flat]
+    return float(np.sqrt(sum(areas**2 for areas in twice)).sum()) / 2
 
 
 def uv_area(face_offsets, corner_uvs):
     """Of all faces whose UVs are numbers, also of those turned over."""
-    flat = np.column_stack([corner_uvs.astype(np.float64), np.zeros(len(corner_uvs))])
-    return float(np.nansum(np.abs(_twice_areas(flat, face_offsets)[:, 2]))) / 2
+    return float(np.nansum(np.abs(_twice_areas(*corner_uvs.astype(np.float64).T, face_offsets)))) / 2
 
 
 def pixels_per_metre(area_in_uv, size, area, metres):
@@ -78,9 +79,8 @@ def _short(value):
     return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
 
 
-def _twice_areas(corners, face_offsets):
-    """(F, 3) vectors: the normal of each face, as long as twice its area."""
-    sizes = np.diff(face_offsets)
-    first = np.repeat(face_offsets[:-1], sizes)
-    following = following_corners(face_offsets)
-    return np.add.reduceat(np.cross(corners - corners[first], corners[following] - corners[first]), face_offsets[:-1])
+def _twice_areas(x, y, face_offsets):
+    """(F,) of the faces in the plane, negative where they are turned over. NumPy's cross() takes several times as long."""
+    first, following = np.repeat(face_offsets[:-1], np.diff(face_offsets)), following_corners(face_offsets)
+    x, y = x - x[first], y - y[first]  # near the origin, where less is lost
+    return np.add.reduceat(x * y[following] - x[following] * y, face_offsets[:-1])
