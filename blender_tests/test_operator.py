@@ -129,7 +129,7 @@ class Operator(unittest.TestCase):
         mesh.uv_layers.new(name="UVMap")
         obj = bpy.data.objects.new("Empty", mesh)
         bpy.context.collection.objects.link(obj)
-        bpy.context.view_layer.objects.active = obj
+        obj.select_set(True)
         with self.assertRaisesRegex(RuntimeError, "Empty"):
             bpy.ops.uv.atlas_refine()
 

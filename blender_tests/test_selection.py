@@ -113,6 +113,15 @@ class Selection(unittest.TestCase):
             bpy.ops.uv.atlas_refine()
         self.assertEqual(self.changed_faces(), [])
 
+    def test_in_object_mode_nothing_selected_is_nothing_to_do(self):
+        self.obj.select_set(False)
+        self.assertIs(bpy.context.view_layer.objects.active, self.obj)
+        self.assertFalse(bpy.ops.uv.atlas_refine.poll())
+        bpy.ops.object.mode_set(mode="SCULPT")
+        self.obj.select_set(False)
+        self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
+        bpy.ops.object.mode_set(mode="OBJECT")
+
     def test_pinned_charts_stay_and_others_go_around_them(self):
         pin(self.obj, [3])
         self.refine(pe_bound=0.6)

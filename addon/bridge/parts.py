@@ -10,14 +10,17 @@ from . import named, selection
 
 
 def objects_of(context):
-    """Mesh objects of which each mesh comes once: all in edit mode, else the selected ones, else the active one."""
+    """Mesh objects of which each mesh comes once: all in edit mode, else the selected ones; in paint and sculpt modes, which work on
+    the active one whatever is selected, that one where none is."""
     active = context.active_object
     in_edit_mode = active is not None and active.mode == "EDIT"
     if in_edit_mode:
         found = [obj for obj in context.view_layer.objects if obj.mode == "EDIT"]
     else:
-        found = list(context.selected_objects) or [active]
-    found = [obj for obj in found if obj is not None and obj.type == "MESH"]
+        found = list(context.selected_objects)
+        if not found and active is not None and active.mode != "OBJECT":
+            found = [active]
+    found = [obj for obj in found if obj.type == "MESH"]
     found.sort(key=lambda obj: obj is not active)
     return list({obj.data: obj for obj in reversed(found)}.values())[::-1]
 
