@@ -8,6 +8,9 @@ import numpy as np
 
 from .cuts import following_corners
 
+#: Of a texture, in pixels.
+LEAST_SIZE = 16
+
 
 @dataclass(frozen=True)
 class Density:
@@ -34,9 +37,16 @@ class Density:
         return math.ceil((max(self.box_px) if in_place else max(self.size) * self.wanted / self.now) - 1e-3)
 
     @property
+    def is_too_small(self):
+        return self.needed_px > max(self.size)
+
+    @property
     def size_to_take(self):
-        """The power of two that holds that; 0 where the texture does."""
-        return 0 if self.needed_px <= max(self.size) else 2 ** math.ceil(math.log2(self.needed_px))
+        """The power of two that holds that where the texture does not, or where a smaller one does too; else 0."""
+        if self.needed_px == 0:
+            return 0
+        holds = max(LEAST_SIZE, 2 ** math.ceil(math.log2(self.needed_px)))
+        return holds if self.is_too_small or holds < max(self.size) else 0
 
 
 def surface_area(positions, face_offsets, corner_vertices):
@@ -63,13 +73,15 @@ def density_lines(density):
     yield f"Density {_short(density.before)}{change} px/m"
     yield f"of a texture of {density.size[0]} x {density.size[1]}"
     if density.needed_px > 0:
-        enough = f"take {density.size_to_take}" if density.size_to_take else "it has them"
+        enough = f"{density.size_to_take} would do" if density.size_to_take else "it has them"
+        if density.is_too_small:
+            enough = f"take {density.size_to_take}"
         yield f"{_short(density.wanted)} px/m need {density.needed_px} px: {enough}"
 
 
 def too_small(density):
     """What a script is told where the texture does not hold the wanted density; empty where it does."""
-    if not density.size_to_take:
+    if not density.is_too_small:
         return ""
     needed = f"{_short(density.wanted)} px/m need a texture of {density.needed_px} px"
     return f"{needed} and this one has {max(density.size)}: take {density.size_to_take}"

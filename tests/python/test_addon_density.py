@@ -58,6 +58,10 @@ def test_what_is_told():
     assert list(density_lines(replace(measured, wanted=250.0)))[2] == "250 px/m need 2560 px: take 4096"
     assert too_small(replace(measured, wanted=250.0)) == "250 px/m need a texture of 2560 px and this one has 1024: take 4096"
     assert too_small(measured) == ""
+    assert list(density_lines(replace(measured, wanted=80.0)))[2] == "80 px/m need 820 px: it has them"
+    assert list(density_lines(replace(measured, wanted=40.0)))[2] == "40 px/m need 410 px: 512 would do"
+    assert too_small(replace(measured, wanted=40.0)) == ""
+    assert replace(measured, wanted=1e-3).size_to_take == 16
     refined = Density((1024, 1024), 100.0, after=128.0, wanted=100.0)
     assert (refined.size_to_take, too_small(refined)) == (0, "")
     assert list(density_lines(refined))[::2] == ["Density 100 -> 128 px/m", "100 px/m need 800 px: it has them"]
