@@ -1,6 +1,7 @@
 """In Blender's window: what the overlay draws and that it goes away, and Stop and Keep Best. Pictures of the manual are made here."""
 
 import itertools
+import sys
 
 import bpy
 import numpy as np
@@ -35,6 +36,13 @@ def overlay():
 def show(*layers):
     for layer in LAYERS:
         setattr(overlay(), layer, layer in layers)
+
+
+def drawn(*layers):
+    """Shows them, and waits until they are drawn: that is after they are built, between two drawings."""
+    show(*layers)
+    yield from until(lambda: sys.modules[f"{MODULE}.overlay"]._cache._built, "nothing is built")
+    yield 0.5
 
 
 def add_suzanne(subdivisions=1):
@@ -96,13 +104,11 @@ def test_overlay_stretch_and_borders_in_the_uv_editor():
     preferences().heat_opacity = 1.0
     yield 0.5
     plain = seen("overlay-none", uv_editor())
-    show("stretch")
-    yield 0.5
+    yield from drawn("stretch")
     heat = seen("overlay-stretch", uv_editor())
     assert differs(plain, heat) > 0.002
     assert like(heat, preferences().heat_high) > 0.0001
-    show("gap")
-    yield 0.5
+    yield from drawn("gap")
     near = seen("overlay-gap", uv_editor())
     assert like(near, preferences().near_colour) > 0.0001 > like(heat, preferences().near_colour)
     show()
@@ -112,8 +118,7 @@ def test_overlay_stretch_and_borders_in_the_uv_editor():
     # What was near is not any more once it is refined.
     yield from start(obj, pe_bound=0.6)
     yield finished
-    show("gap")
-    yield 0.5
+    yield from drawn("gap")
     assert like(seen("overlay-gap-refined", uv_editor()), preferences().near_colour) == 0
     show()
 
@@ -124,8 +129,7 @@ def test_overlay_follows_the_mesh_the_selection_and_edit_mode():
     show()
     yield 0.3
     empty = seen("overlay-empty", uv_editor())
-    show("stretch")
-    yield 0.5
+    yield from drawn("stretch")
     shown = seen("overlay-followed", uv_editor())
     layer = obj.data.uv_layers.active
     set_uvs(layer, get_uvs(layer) + 0.2)
@@ -149,8 +153,7 @@ def test_overlay_in_both_editors_and_pictures_of_the_manual():
     settings.seams, settings.cut = "RECTANGLES", "EDGES"
     tasks().last = None
     fit_view(bpy.ops.image.view_all, fit_view=True)
-    show("stretch")
-    yield 0.5
+    yield from drawn("stretch")
     picture("manual-before")
     yield from start(obj, pe_bound=0.8)
     yield finished
@@ -215,8 +218,7 @@ def test_keep_best_by_the_button():
 
 def test_overlay_is_off_after_another_file():
     crowded("Old")
-    show(*LAYERS)
-    yield 0.3
+    yield from drawn(*LAYERS)
     bpy.ops.wm.save_as_mainfile(filepath=bpy.app.tempdir + "overlay.blend")
     bpy.ops.wm.open_mainfile(filepath=bpy.app.tempdir + "overlay.blend")
     yield 0.5
