@@ -12,7 +12,7 @@ from . import drawing, engine, preferences
 from .bridge import cuts
 from .bridge import mesh as bridge
 from .bridge import parts as objects
-from .bridge.texture import active_tile, find_texture
+from .bridge.texture import active_tile, find_texture, of_another_shape
 from .changes import Watch, no_longer, once_drawn
 from .core.atlas import stored_uvs
 from .core.cuts import plan_cut, seam_edges
@@ -71,8 +71,16 @@ class Atlas:
                 cuts.check_divisible(obj)
             if self.request.leaves_faces_out:
                 raise bridge.MeshError("cuts across faces need all charts of the mesh: show all, or cut along edges")
-        self.notes = [note for obj in objs for note in _notes(obj)]
+        self.notes = [*(note for obj in objs for note in _notes(obj)), *self._notes_on_images(list(material_numbers))]
         self.job = None
+
+    def _notes_on_images(self, materials):
+        if not self.options.takes_image(self.texture):
+            return
+        used = {materials[number] for part in self.parts for number in np.unique(part.materials[part.taken])}
+        others = of_another_shape(self.texture, used)
+        if others:
+            yield f"packed for {self.texture.name}; of another shape: {', '.join(others)}. Select the charts of one image at a time"
 
     def start(self, threads, keywords):
         name = self.title if len(self.parts) == 1 else ""

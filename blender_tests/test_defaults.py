@@ -42,6 +42,34 @@ class Defaults(unittest.TestCase):
         self.assertGreaterEqual(border_in_pixels(uvs, 1024, 256), 4.0)
         self.assertLess(border_in_pixels(uvs, 1024, 256), 4.1)
 
+    def test_the_image_that_is_used_counts_and_those_in_groups(self):
+        obj = add_mesh()
+        add_image(obj, 256, 1024)
+        tree = obj.active_material.node_tree
+        group = bpy.data.node_groups.new("Group", "ShaderNodeTree")
+        image = group.nodes.new("ShaderNodeTexImage")
+        image.image = bpy.data.images.new("Used", 1024, 256)
+        mix = group.nodes.new("ShaderNodeMixRGB")
+        group.links.new(image.outputs[0], mix.inputs[1])
+        tree.nodes.new("ShaderNodeGroup").node_tree = group
+        tree.nodes.active = None
+        bpy.ops.uv.atlas_refine()
+        uvs = get_uvs(obj.data.uv_layers.active)
+        self.assertGreaterEqual(border_in_pixels(uvs, 1024, 256), 4.0)
+        self.assertLess(border_in_pixels(uvs, 1024, 256), 4.1)
+
+    def test_images_of_other_shapes_are_told(self):
+        obj = add_mesh()
+        for name, size in (("Skin", (512, 512)), ("Eyes", (256, 256)), ("Hair", (512, 128)), ("Unused", (128, 512))):
+            add_image(obj, *size).name = name
+        numbers = np.arange(len(obj.data.polygons), dtype=np.int32) % 3
+        obj.data.polygons.foreach_set("material_index", numbers)
+        told = messages(bpy.ops.uv.atlas_refine)
+        self.assertIn("Warning: Loose: packed for Skin; of another shape: Hair. Select the charts of one image at a time", told)
+        numbers[:] = np.minimum(numbers, 1)
+        obj.data.polygons.foreach_set("material_index", numbers)
+        self.assertNotIn("packed for", messages(bpy.ops.uv.atlas_refine, pe_bound=0.7))
+
     def test_square_goes_by_the_texture_size(self):
         obj = add_mesh()
         add_image(obj, 1024, 256)

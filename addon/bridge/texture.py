@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The image that a UV map is for: what the UV editor shows, else what the active material reads."""
 
+import bpy
+
 from ..core.options import Texture
 
 
 def find_texture(context, obj):
     """The Texture, or None where no image tells the shape: then it is square."""
-    image = _image_in_editor(context) or _image_of_material(obj)
+    image = _image_in_editor(context) or _image_of_material(obj.active_material if obj else None)
     if image is None:
         return None
     width, height = image.size
@@ -22,14 +24,31 @@ def _image_in_editor(context):
     return space.image if _has_size(space.image) else None
 
 
-def _image_of_material(obj):
-    material = obj.active_material if obj else None
+def of_another_shape(texture, material_names):
+    """Names of the images that these materials read and whose shape is not the texture's."""
+    images = filter(None, (_image_of_material(bpy.data.materials.get(name)) for name in material_names))
+    shape = texture.width / texture.height
+    return sorted({image.name for image in images if abs(image.size[0] / image.size[1] - shape) > 1e-3 * shape})
+
+
+def _image_of_material(material):
     if material is None or material.node_tree is None:
         return None
-    nodes = [node for node in material.node_tree.nodes if node.type == "TEX_IMAGE" and _has_size(node.image)]
+    nodes = list(_image_nodes(material.node_tree))
     active = material.node_tree.nodes.active
-    chosen = active if active in nodes else nodes[0] if nodes else None
-    return chosen.image if chosen else None
+    if active in nodes:
+        return active.image
+    used = [node for node in nodes if any(output.is_linked for output in node.outputs)]
+    return next((node.image for node in used or nodes), None)
+
+
+def _image_nodes(tree):
+    """Those in groups too."""
+    for node in tree.nodes:
+        if node.type == "TEX_IMAGE" and _has_size(node.image):
+            yield node
+        elif node.type == "GROUP" and node.node_tree is not None:
+            yield from _image_nodes(node.node_tree)
 
 
 def _has_size(image):
