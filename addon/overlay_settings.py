@@ -5,6 +5,8 @@ import bpy
 from bpy.props import BoolProperty, PointerProperty
 
 from . import overlay, preferences
+from .bridge import parts as objects
+from .bridge.mesh import has_other_faces
 
 
 def _switch(layer, label, description):
@@ -36,11 +38,21 @@ def draw(layout, context):
     row = layout.row(align=True)
     for name in overlay.shown:
         row.prop(switches, name, toggle=True)
+    if any(overlay.shown.values()) and context.area.type == "VIEW_3D" and _lies_on_the_cage(context):
+        layout.label(text="Lies on the mesh", icon="INFO")
+        layout.label(text="without its modifiers", icon="BLANK1")
     chosen = preferences.get()
     if switches.stretch and isinstance(chosen, bpy.types.AddonPreferences):  # else there is nothing to choose
         legend = layout.row(align=True)
         legend.prop(chosen, "heat_low", text="None")
         legend.prop(chosen, "heat_high", text=f"{chosen.heat_worst:g} x")
+
+
+def _lies_on_the_cage(context):
+    """An artist who sees a subdivided surface should know why the overlay does not follow it."""
+    depsgraph = context.view_layer.depsgraph
+    found = () if depsgraph is None or context.mode != "OBJECT" else objects.objects_of(context)
+    return any(has_other_faces(obj, depsgraph) for obj in found if obj.visible_get())
 
 
 def register():

@@ -134,8 +134,15 @@ class Overlay(unittest.TestCase):
 
     def test_it_stays_on_the_mesh_where_modifiers_make_other_faces(self):
         obj = add_mesh()
-        obj.modifiers.new("Subdivision", "SUBSURF").levels = 1
+        settings = module("overlay_settings")
+        self.assertFalse(settings._lies_on_the_cage(bpy.context))
+        modifier = obj.modifiers.new("Subdivision", "SUBSURF")
+        modifier.levels = 1
         self.assertIsNone(self.shown(obj))
+        self.assertTrue(settings._lies_on_the_cage(bpy.context))
+        modifier.show_viewport = False
+        self.assertIsNotNone(self.shown(obj))
+        self.assertFalse(settings._lies_on_the_cage(bpy.context))
 
     def test_keep_best_has_nothing_to_do_while_nothing_runs(self):
         add_mesh()

@@ -82,15 +82,19 @@ def triangles_of(mesh):
 
 def read_shown_positions(obj, depsgraph):
     """(V, 3) float32: where modifiers and shape keys move the vertices; None in edit mode, and where they make other faces."""
-    if depsgraph is None or obj.mode == "EDIT":
+    if depsgraph is None or obj.mode == "EDIT" or has_other_faces(obj, depsgraph):
         return None
     shown, mesh = obj.evaluated_get(depsgraph).data, obj.data
-    counts = [(len(m.vertices), len(m.polygons), len(m.loops)) for m in (shown, mesh)]
-    if counts[0] != counts[1]:
-        return None
     if not np.array_equal(integers(shown.loops, "vertex_index"), integers(mesh.loops, "vertex_index")):
         return None
     return _positions(shown)
+
+
+def has_other_faces(obj, depsgraph):
+    """Whether modifiers make more, or fewer, than the mesh has, as far as a look at the numbers tells; object mode."""
+    meshes = obj.evaluated_get(depsgraph).data, obj.data
+    shown, own = ((len(mesh.vertices), len(mesh.polygons), len(mesh.loops)) for mesh in meshes)
+    return shown != own
 
 
 def add_copy(obj, uv_map):
