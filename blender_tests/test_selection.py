@@ -113,14 +113,13 @@ class Selection(unittest.TestCase):
             bpy.ops.uv.atlas_refine()
         self.assertEqual(self.changed_faces(), [])
 
-    def test_in_object_mode_nothing_selected_is_nothing_to_do(self):
+    def test_in_object_mode_with_nothing_selected_the_active_object_is_taken_where_it_is_seen(self):
         self.obj.select_set(False)
         self.assertIs(bpy.context.view_layer.objects.active, self.obj)
+        self.obj.hide_set(True)
         self.assertFalse(bpy.ops.uv.atlas_refine.poll())
-        bpy.ops.object.mode_set(mode="SCULPT")
-        self.obj.select_set(False)
+        self.obj.hide_set(False)
         self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
-        bpy.ops.object.mode_set(mode="OBJECT")
 
     def test_pinned_charts_stay_and_others_go_around_them(self):
         pin(self.obj, [3])

@@ -10,15 +10,14 @@ from . import named, selection
 
 
 def objects_of(context):
-    """Mesh objects of which each mesh comes once: all in edit mode, else the selected ones; in paint and sculpt modes, which work on
-    the active one whatever is selected, that one where none is."""
+    """Mesh objects of which each mesh comes once: all in edit mode, else the selected ones, else the active one where it is seen."""
     active = context.active_object
     in_edit_mode = active is not None and active.mode == "EDIT"
     if in_edit_mode:
         found = [obj for obj in context.view_layer.objects if obj.mode == "EDIT"]
     else:
         found = list(context.selected_objects)
-        if not found and active is not None and active.mode != "OBJECT":
+        if not found and active is not None and active.visible_get():
             found = [active]
     found = [obj for obj in found if obj.type == "MESH"]
     found.sort(key=lambda obj: obj is not active)
