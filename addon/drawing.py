@@ -19,8 +19,9 @@ def draw_main(layout, holder, context):
         text = f"{texture.name}: {texture.width} x {texture.height}" if texture else "No image: square"
         layout.label(text=text, icon="IMAGE_DATA")
     layout.prop(holder, "seams")
+    layout.prop(holder, "max_distortion")
     if holder.seams == "NEEDED":
-        _draw_needed(layout, holder)
+        _draw_most_new_seams(layout, holder)
     if holder.seams != "NONE":
         layout.prop(holder, "cut")
     layout.prop(holder, "gap")
@@ -39,9 +40,7 @@ def draw_main(layout, holder, context):
     layout.prop(holder, "write_to")
 
 
-def _draw_needed(layout, holder):
-    """The two limits that say how much is cut."""
-    layout.prop(holder, "max_distortion")
+def _draw_most_new_seams(layout, holder):
     row = layout.row(heading="Most New Seams")
     row.prop(holder, "limit_new_seams", text="")
     value = row.row()
@@ -79,8 +78,6 @@ def draw_protected(layout, holder, context):
 
 def draw_advanced(layout, holder):
     layout.prop(holder, "relax")
-    if holder.seams != "NEEDED":  # there it stands beside Seams
-        layout.prop(holder, "max_distortion")
     layout.prop(holder, "open_closed")
     layout.prop(holder, "best_effort")
     if holder.seams == "NEEDED":
