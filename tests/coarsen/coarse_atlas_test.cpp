@@ -141,5 +141,18 @@ TEST(CoarseAtlas, SmallAtlasesAndChartsThatDoNotBendStayAsTheyAre) {
   EXPECT_NEAR(std::accumulate(coarse.objective.weight.begin(), coarse.objective.weight.end(), 0.0), 1, 0.05);
 }
 
+TEST(CoarseAtlas, ACrushedTriangleComesFreeWithoutTheOthers) {
+  std::vector<Chart> charts = charts_of(shapes::mesh(shapes::rectangle(1, 0.7), kFine));
+  const Objective objective = make_objective(charts);
+  const std::vector<char> outside = boundary_flags(charts[0]);
+  const Triangle crushed = *std::find_if(charts[0].triangles.begin(), charts[0].triangles.end(),
+                                         [&](const Triangle& t) { return !outside[t[0]] && !outside[t[1]] && !outside[t[2]]; });
+  const Vec2 across = 0.5 * (charts[0].uvs[crushed[1]] + charts[0].uvs[crushed[2]]);
+  charts[0].uvs[crushed[0]] += (1 - 1e-5) * (across - charts[0].uvs[crushed[0]]);
+  ASSERT_GT(energy(charts[0], objective), 1e4);
+  charts[0].uvs = relax_crushed(charts[0], {objective.inverse_edges, objective.weight}, objective.unit);
+  EXPECT_LT(energy(charts[0], objective), 1.01);
+}
+
 }  // namespace
 }  // namespace atlas_refine

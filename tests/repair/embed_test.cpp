@@ -76,24 +76,40 @@ TEST(Embed, BlobsOnNarrowNecksKeepTheirSizes) {
   EXPECT_LT(embedded_energy(blobs), 1.1);
 }
 
-TEST(Embed, ManyTrianglesGoDownOnCoarseOnes) {
-  constexpr int kSide = 125;  // quads
+/// Columns x rows quads whose positions are `point(i, j)`, each vertex at UVs of its own.
+template <class Point>
+Chart grid(int columns, int rows, const Point& point) {
   Atlas atlas;
   atlas.face_offsets = {0};
-  for (int v = 0; v < (kSide + 1) * (kSide + 1); ++v)
-    atlas.positions.emplace_back(v % (kSide + 1), v / (kSide + 1), 2 * std::sin(0.1 * (v % (kSide + 1))));
-  for (int f = 0; f < kSide * kSide; ++f) {
-    const int v = f / kSide * (kSide + 1) + f % kSide;
-    for (const int corner : {v, v + 1, v + kSide + 2, v + kSide + 1}) {
+  const int across = columns + 1;
+  for (int v = 0; v < across * (rows + 1); ++v) atlas.positions.push_back(point(v % across, v / across));
+  for (int f = 0; f < columns * rows; ++f) {
+    const int v = f / columns * across + f % columns;
+    for (const int corner : {v, v + 1, v + across + 1, v + across}) {
       atlas.corner_vertices.push_back(corner);
-      atlas.corner_uvs.emplace_back(corner % (kSide + 1), corner / (kSide + 1));
+      atlas.corner_uvs.emplace_back(corner % across, corner / across);
     }
     atlas.face_offsets.push_back(atlas.corner_count());
   }
+  return testing::charts_of(atlas).at(0);
+}
+
+TEST(Embed, ManyTrianglesGoDownOnCoarseOnes) {
+  const Chart waves = grid(125, 125, [](int i, int j) { return Vec3(i, j, 2 * std::sin(0.1 * i)); });
   const PhaseScope scope(Phase::Other);
   take_account();
-  EXPECT_LT(embedded_energy(testing::charts_of(atlas).at(0)), 1.001);
+  EXPECT_LT(embedded_energy(waves), 1.001);
   EXPECT_GT(take_account().seconds[static_cast<int>(Phase::Coarsen)], 0);
+}
+
+TEST(Embed, OfManyTrianglesAllPartsHaveTheirSizesFromTheStart) {
+  // Tutte's disk shrinks both ends of such a tube.
+  const Chart tube = grid(60, 520, [](int i, int j) { return on_tube(i, j, 60, 9.6 + 1e-3 * i); });
+  Monitor monitor;
+  const auto start = spread_out(tube, 2, monitor);
+  ASSERT_TRUE(start);
+  testing::expect_certified({*start});
+  EXPECT_LT(dirichlet_sums(*start).best_energy(), 1.01);
 }
 
 TEST(Embed, ManyHolesStayOpen) {

@@ -33,16 +33,17 @@ double surface_of_bending(const std::vector<Chart>& charts, const Freedoms& free
   return area;
 }
 
-/// Edge length of equilateral triangles, so many of which have this area.
-double edge_length(double area, double triangles) { return std::sqrt(4 / std::sqrt(3.0) * area / triangles); }
-
 }  // namespace
+
+double spacing_inside(double area) {
+  return std::sqrt(4 / std::sqrt(3.0) * area / kInside);  // edges of equilateral triangles
+}
 
 std::optional<CoarseAtlas> coarsen(const std::vector<Chart>& charts, const Objective& objective, const Freedoms& freedom) {
   const PhaseScope scope(Phase::Coarsen);
   const int vertices = bending_vertices(charts, freedom);
   if (vertices < kSmall) return std::nullopt;
-  const double spacing = edge_length(surface_of_bending(charts, freedom), kInside);
+  const double spacing = spacing_inside(surface_of_bending(charts, freedom));
   CoarseAtlas out{.charts = {}, .objective = {.unit = objective.unit}};
   int kept = vertices;
   for (std::size_t c = 0; c < charts.size(); ++c) {

@@ -14,6 +14,9 @@ struct CoarseAtlas {
   Objective objective;                             ///< of the coarse charts
 };
 
+/// How far apart a coarse chart's vertices are where they are far from its boundary; `area`: of all coarse charts' surface.
+double spacing_inside(double area);
+
 /// Nothing where the atlas is small, or too little of it can be coarsened. Charts that do not bend stay as they are.
 std::optional<CoarseAtlas> coarsen(const std::vector<Chart>& charts, const Objective& objective, const Freedoms& freedom);
 

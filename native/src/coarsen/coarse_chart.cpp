@@ -16,7 +16,7 @@ namespace atlas_refine {
 namespace {
 
 constexpr double kMostKept = 0.5;  // of the vertices: else there is little to gain
-constexpr double kFlat = 1e-6;     // triangles are no flatter
+constexpr double kFlat = 1e-6;     // sides may be so near to a line
 
 /// Per vertex of the chart its entry in `kept`, -1 where it has none.
 std::vector<int> entries_of(const Chart& chart, const std::vector<int>& kept) {
@@ -94,13 +94,6 @@ std::vector<Place> places_of(const Chart& chart, const CoarseChart& coarse, cons
   return places;
 }
 
-/// The triangle with sides (0, 1), (1, 2), (2, 0) of these lengths.
-RestTriangle with_sides(const std::array<double, 3>& lengths) {
-  const double along = (lengths[0] * lengths[0] + lengths[2] * lengths[2] - lengths[1] * lengths[1]) / (2 * lengths[0]);
-  const double height = std::sqrt(std::max(lengths[2] * lengths[2] - along * along, kFlat * lengths[0] * lengths[0]));
-  return rest_from_plane({0, 0}, {lengths[0], 0}, {along, height}, 1);
-}
-
 /// Boundary edges have their lengths on the surface. Of other sides nobody asks: where lengths do not close to a triangle, they
 /// give way.
 Surface surface_of(const Chart& chart, const CoarseChart& coarse) {
@@ -120,7 +113,7 @@ Surface surface_of(const Chart& chart, const CoarseChart& coarse) {
       const double a = lengths[(k + 1) % 3], b = lengths[(k + 2) % 3];
       if (!known[k]) lengths[k] = std::max(std::min(lengths[k], (1 - kFlat) * (a + b)), std::abs(a - b) + kFlat * (a + b));
     }
-    shapes.push_back(with_sides(lengths));
+    shapes.push_back(rest_from_sides(lengths));
   }
   return Surface(std::move(shapes));
 }

@@ -10,11 +10,12 @@
 #include "geometry/guards.h"
 #include "solve/foldover.h"
 #include "solve/newton.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
 
-constexpr double kBad = 2;           // times its energy before: an element that has to be mended
+constexpr double kBad = 2;           // times its energy before, or the median: an element that has to be mended
 constexpr int kMostSweeps = 40;      // over the vertices of bad elements
 constexpr int kOwnSweeps = 6;        // without those around them
 constexpr double kFirstBlur = 0.3;   // epsilon of the energy for flipped elements,
@@ -118,9 +119,9 @@ void find_stars(Patch& patch) {
   }
 }
 
-/// Of elements with too much of their first energy; true where none is left flipped.
-bool mend(const std::vector<double>& first_energy, Patch& patch) {
-  const auto is_good = [&](int e) { return patch.energy_of(e) <= kBad * first_energy[e]; };
+/// Of elements with more energy than `most`; true where none is left flipped.
+bool mend(const std::vector<double>& most, Patch& patch) {
+  const auto is_good = [&](int e) { return patch.energy_of(e) <= most[e]; };
   std::vector<int> bad(patch.elements.size());
   std::iota(bad.begin(), bad.end(), 0);
   std::erase_if(bad, is_good);
@@ -144,19 +145,39 @@ std::vector<double> energies(const Patch& patch) {
   return out;
 }
 
+/// In solver units.
+Patch patch_of(const Chart& chart, const ChartObjective& objective, double unit) {
+  Patch out{.elements = elements_of(chart), .objective = objective, .x = chart.uvs, .fixed = boundary_flags(chart), .around = {}};
+  for (Vec2& x : out.x) x /= unit;
+  return out;
+}
+
+std::vector<Vec2> in_uvs(std::vector<Vec2> x, double unit) {
+  for (Vec2& point : x) point *= unit;
+  return x;
+}
+
 }  // namespace
 
 std::optional<std::vector<Vec2>> prolong(const Chart& chart, const CoarseChart& coarse, const std::vector<Vec2>& coarse_uvs,
                                          const ChartObjective& fine, double unit) {
-  Patch patch{.elements = elements_of(chart), .objective = fine, .x = chart.uvs, .fixed = {}, .around = {}};
-  for (Vec2& x : patch.x) x /= unit;
-  const std::vector<double> first_energy = energies(patch);
+  Patch patch = patch_of(chart, fine, unit);
+  std::vector<double> most = energies(patch);
+  for (double& energy : most) energy *= kBad;
   patch.x = interpolated(coarse, coarse_uvs);
   for (Vec2& x : patch.x) x /= unit;
-  patch.fixed = boundary_flags(chart);
-  if (!mend(first_energy, patch)) return std::nullopt;
-  for (Vec2& x : patch.x) x *= unit;
-  return std::move(patch.x);
+  if (!mend(most, patch)) return std::nullopt;
+  return in_uvs(std::move(patch.x), unit);
+}
+
+std::vector<Vec2> relax_crushed(const Chart& chart, const ChartObjective& objective, double unit) {
+  const PhaseScope scope(Phase::Coarsen);
+  Patch patch = patch_of(chart, objective, unit);
+  std::vector<double> sorted = energies(patch);
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  mend(std::vector<double>(patch.elements.size(), kBad * *middle), patch);
+  return in_uvs(std::move(patch.x), unit);
 }
 
 }  // namespace atlas_refine

@@ -13,4 +13,9 @@ namespace atlas_refine {
 std::optional<std::vector<Vec2>> prolong(const Chart& chart, const CoarseChart& coarse, const std::vector<Vec2>& coarse_uvs,
                                          const ChartObjective& fine, double unit);
 
+/// UVs of a chart without flips in which elements that are crushed, next to all others, have been relaxed by moving vertices
+/// inside, one after the other. A global Newton step lets each of them come free by a third of its size only, however few they
+/// are.
+std::vector<Vec2> relax_crushed(const Chart& chart, const ChartObjective& objective, double unit);
+
 }  // namespace atlas_refine

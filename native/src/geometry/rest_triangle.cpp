@@ -78,6 +78,13 @@ RestTriangle rest_equilateral(double area) {
   return from_flat_edges(length, 0.5 * length, 0.5 * std::sqrt(3.0) * length);
 }
 
+RestTriangle rest_from_sides(const std::array<double, 3>& lengths) {
+  constexpr double kFlat = 1e-6;  // of the first side, squared: no lower
+  const double along = (lengths[0] * lengths[0] + lengths[2] * lengths[2] - lengths[1] * lengths[1]) / (2 * lengths[0]);
+  const double height = std::sqrt(std::max(lengths[2] * lengths[2] - along * along, kFlat * lengths[0] * lengths[0]));
+  return from_flat_edges(lengths[0], along, height);
+}
+
 std::array<double, 3> side_lengths(const RestTriangle& shape) {
   const Mat2 edges = shape.inverse_edges.inverse();
   return {edges.col(0).norm(), (edges.col(1) - edges.col(0)).norm(), edges.col(1).norm()};

@@ -21,6 +21,9 @@ RestTriangle rest_raised(const Vec3& p0, const Vec3& p1, const Vec3& p2, double 
 /// The shape of a triangle of the plane, counterclockwise, times `scale`. Zero `area` where it is a sliver or not positive.
 RestTriangle rest_from_plane(const Vec2& p0, const Vec2& p1, const Vec2& p2, double scale);
 
+/// The triangle with sides (0, 1), (1, 2), (2, 0) of these lengths; low, where they do not close to one.
+RestTriangle rest_from_sides(const std::array<double, 3>& lengths);
+
 /// Of the sides (0, 1), (1, 2), (2, 0).
 std::array<double, 3> side_lengths(const RestTriangle& shape);
 

@@ -1,4 +1,4 @@
-// Tutte's embedding, its rounding mended, and from there downhill, on coarse charts first.
+// Tutte's embedding, its rounding mended, and from there downhill; of many triangles on fewer first.
 #include "repair/embed.h"
 
 #include <Eigen/Eigenvalues>
@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "coarsen/coarse_atlas.h"
+#include "coarsen/decimate.h"
+#include "coarsen/prolong.h"
 #include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
 #include "geometry/tutte.h"
@@ -26,6 +28,12 @@ constexpr double kGapForLargerBox = 1.5;
 constexpr double kGentle = 10;         // E_d of a start that needs no evening out
 constexpr double kCollapsed = 100;     // E_d above which an embedding is no use
 constexpr double kLeastWeight = 1e-3;  // of a triangle, as a fraction of the mean one
+
+/// Fewer are soon down by themselves, and the way over coarse charts may lead to another optimum.
+bool has_many(const Chart& chart) {
+  constexpr std::size_t kMany = 30000;
+  return chart.triangles.size() >= kMany;
+}
 
 /// The triangles on the surface's shapes, the outer boundary where it is, every other loop filled by a fan around a new vertex.
 /// With the outer boundary convex, all of them positive means an embedding, with polygons convex where they have guards.
@@ -80,6 +88,12 @@ Chart stretched(Chart chart) {
   if (!map.allFinite()) return chart;
   for (Vec2& uv : chart.uvs) uv = map * uv;
   return chart;
+}
+
+/// Where rounding makes that invalid, as it is.
+Chart validly_stretched(const Chart& chart) {
+  Chart better = stretched(chart);
+  return certify_charts({better}).valid() ? better : chart;
 }
 
 /// The disk with its parts evened out; nothing where that made it invalid.
@@ -161,26 +175,43 @@ Chart coarsely_downhill(Chart chart, const Objective& objective, int threads, Mo
     if (!uvs) return chart;
     chart.uvs = std::move(uvs->front());
   }
+  chart.uvs = relax_crushed(chart, {objective.inverse_edges, objective.weight}, objective.unit);
   return chart;
+}
+
+/// A valid start whose parts have their sizes, from fewer triangles that have found theirs: Tutte's embedding of all of them
+/// would have to be evened out first.
+std::optional<Chart> from_decimated(const Chart& chart, int threads, Monitor& monitor) {
+  const auto coarse = decimate(chart, spacing_inside(chart.surface.area()));
+  if (!coarse) return std::nullopt;
+  const auto disk = on_disk(coarse->mesh, threads, monitor);
+  if (!disk) return std::nullopt;
+  const Chart start = validly_stretched(*disk);
+  const ReduceResult end = downhill(start, make_objective({start}), threads, monitor);
+  if (!(end.energy <= kCollapsed)) return std::nullopt;
+  auto uvs = put_back(*coarse, end.uvs[0]);
+  if (!uvs) return std::nullopt;
+  Chart out = chart;
+  out.uvs = std::move(*uvs);
+  if (!certify_charts({out}).valid()) return std::nullopt;
+  return out;
 }
 
 }  // namespace
 
 std::optional<Chart> spread_out(const Chart& chart, int threads, Monitor& monitor) {
-  std::optional<Chart> start = on_disk(chart, threads, monitor);
+  std::optional<Chart> start;
+  if (has_many(chart)) start = from_decimated(chart, threads, monitor);
+  if (!start) start = on_disk(chart, threads, monitor);
   if (!start) return std::nullopt;
   drop_broken_guards(*start);
-  if (Chart better = stretched(*start); certify_charts({better}).valid()) start = std::move(better);
-  return start;
+  return validly_stretched(*start);
 }
 
 std::optional<Chart> embed(const Chart& chart, const Chart& start, Shapes shapes, int threads, Monitor& monitor) {
   const Objective objective = shapes == Shapes::OfUvs ? shapes_of_uvs(chart, {start}) : make_objective({start});
-  // Fewer are soon down by themselves, and the way over coarse charts may lead to another optimum.
-  constexpr std::size_t kMany = 30000;  // triangles
-  const bool many = chart.triangles.size() >= kMany;
   ReduceResult result =
-      downhill(many ? coarsely_downhill(start, objective, threads, monitor) : start, objective, threads, monitor);
+      downhill(has_many(chart) ? coarsely_downhill(start, objective, threads, monitor) : start, objective, threads, monitor);
   if (!(result.energy <= kCollapsed)) return std::nullopt;
   // The start may have had polygons that were not convex and had no guards; those that are in the end are guarded from here on.
   Chart embedded = chart;
