@@ -112,7 +112,7 @@ std::vector<Chart> charts_before_opening(const Refinement& run, const CutAtlas& 
 double energy_of_input(const Refinement& run, const CutAtlas& repaired, const std::vector<Chart>& charts) {
   const Objective objective = goal_of(run.input.set.charts, repaired, run.options);
   const std::vector<Chart> start = charts;
-  return reduce_distortion({.charts = start, .objective = objective, .max_iterations = 0}).energy;
+  return reduce_distortion({.charts = start, .objective = &objective, .max_iterations = 0}).energy;
 }
 
 }  // namespace

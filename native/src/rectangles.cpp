@@ -134,7 +134,7 @@ struct Reduction {
 ReduceResult reduce_charts(const Refinement& run, const std::vector<Chart>& charts, const Objective& objective,
                            const Freedoms& freedom, const Reduction& reduction) {
   const ReduceProblem problem{.charts = charts,
-                              .objective = objective,
+                              .objective = &objective,
                               .gap = beyond_rounding(reduction.gap, run.options.stored),
                               .box_aspect = run.options.box_aspect,
                               .pe_target = run.options.pe_bound,

@@ -235,7 +235,7 @@ TEST(HeldModel, WhatIsFixedCountsInPeAndNotInTheObjective) {
       {.charts = charts, .box_aspect = 1, .pe_target = 0.9, .freedom = {kFixed, kMoves, kBends, kBends}, .frame = {0.92, 0.92}});
   EXPECT_NEAR(box_pe(model, model.start), uv_area(charts) / (0.92 * 0.92), 1e-12);
   EXPECT_NEAR(model_energy(model, model.start.x), testing::energy_as_is({charts[1], charts[2], charts[3]}), 1e-12);
-  EXPECT_NEAR(surface_distortion(model, model.start.x), dirichlet_sums(charts).best_energy(), 1e-12);
+  EXPECT_NEAR(surface_distortion(charts, model, model.start.x), dirichlet_sums(charts).best_energy(), 1e-12);
 }
 
 TEST(HeldModel, OnlyTheInsideOfTheBoxCountsOfAFixedChart) {

@@ -201,7 +201,7 @@ TEST(ReduceModel, TheStartComesBackInItsOwnUnits) {
   }
   EXPECT_NEAR(tight_pe(model, model.start), testing::packing_efficiency(charts), 1e-12);
   EXPECT_NEAR(dirichlet_energy(model.objective, model.triangles, model.start.x), testing::energy_as_is(charts), 1e-12);
-  EXPECT_NEAR(surface_distortion(model, model.start.x), dirichlet_sums(charts).best_energy(), 1e-12);
+  EXPECT_NEAR(surface_distortion(charts, model, model.start.x), dirichlet_sums(charts).best_energy(), 1e-12);
 }
 
 TEST(ReduceModel, ForcesAreTheBarriersSlope) {

@@ -72,7 +72,7 @@ SqueezedTrial CutTrials::without_cuts(const ProgressRange& range) {
   out.trial.distortion = distortion_of(out.solution);
   const std::vector<Chart> charts = meshes_of(out.solution.atlas);
   const Objective objective = goal_of(run_.input.set.charts, out.solution.atlas, run_.options);
-  const double energy = reduce_distortion({.charts = charts, .objective = objective, .max_iterations = 0}).energy;
+  const double energy = reduce_distortion({.charts = charts, .objective = &objective, .max_iterations = 0}).energy;
   if (std::isfinite(out.trial.distortion)) offset_ = out.trial.distortion - energy;
   const double rough = out.solution.rough_energy;
   out.trial.foreseen = rough > 0 ? offset_ + rough : out.trial.distortion;

@@ -29,9 +29,8 @@ void flatten(const std::vector<Chart>& charts, ReduceModel& model) {
   int count = 0;
   for (const Chart& chart : charts) {
     model.first_vertex.push_back(count);
-    for_each_element(chart, [&](const Triangle& t, const RestTriangle& shape, double share, int) {
+    for_each_element(chart, [&](const Triangle& t, const RestTriangle&, double, int) {
       model.surface_triangles.push_back({count + t[0], count + t[1], count + t[2]});
-      model.surface.push_back({shape.inverse_edges, share * shape.area});
     });
     for (const Vec2& uv : chart.uvs) model.start.x.push_back(uv / model.objective.unit);
     count += chart.vertex_count();
@@ -201,8 +200,15 @@ double model_energy(const ReduceModel& model, const std::vector<Vec2>& x) {
   return model.held_energy + dirichlet_energy(model.objective, model.triangles, x);
 }
 
-double surface_distortion(const ReduceModel& model, const std::vector<Vec2>& x) {
-  return dirichlet_sums(model.surface, model.surface_triangles, x).best_energy();
+double surface_distortion(const std::vector<Chart>& charts, const ReduceModel& model, const std::vector<Vec2>& x) {
+  std::vector<RestTriangle> surface;  // not kept: it is large, and asked for where E_d is limited only
+  surface.reserve(model.surface_triangles.size());
+  for (const Chart& chart : charts) {
+    for_each_element(chart, [&](const Triangle&, const RestTriangle& shape, double share, int) {
+      surface.push_back({shape.inverse_edges, share * shape.area});
+    });
+  }
+  return dirichlet_sums(surface, model.surface_triangles, x).best_energy();
 }
 
 std::vector<Vec2> pe_gradient(const ReduceModel& model, const ReduceState& state) {

@@ -26,7 +26,6 @@ struct ReduceModel {
   Objective objective;                      ///< of these
   double held_energy = 0;                   ///< of the pieces that only move: added to the objective
   std::vector<Triangle> surface_triangles;  ///< of all pieces, guards too
-  std::vector<RestTriangle> surface;        ///< of these, in model units, areas times share: what max_distortion is measured on
   std::vector<double> masses;               ///< one per node: a third of the triangles around it; 1 for the box
   Boundary boundary;                        ///< all fixed pieces count as one: the first of them
   Freedoms freedom;                         ///< one per piece; empty where all bend
@@ -63,8 +62,8 @@ double tight_pe(const ReduceModel& model, const ReduceState& state);  ///< again
 std::vector<Vec2> pe_gradient(const ReduceModel& model, const ReduceState& state);
 /// Objective of all pieces that are not fixed; infinite with a flip.
 double model_energy(const ReduceModel& model, const std::vector<Vec2>& x);
-/// E_d on the surface, under the one global scale that minimises it.
-double surface_distortion(const ReduceModel& model, const std::vector<Vec2>& x);
+/// E_d on the surface of the model's charts, under the one global scale that minimises it.
+double surface_distortion(const std::vector<Chart>& charts, const ReduceModel& model, const std::vector<Vec2>& x);
 
 /// A gradient by the sides of the box as the box node has it.
 Vec2 on_box_node(const ReduceModel& model, const Vec2& by_sides);

@@ -71,7 +71,7 @@ struct Task {
 
 void measure(const Task& task, Iterate& at) {
   if (task.bounded()) at.pe = tight_pe(task.model, at.state);
-  if (task.problem.max_distortion > 0) at.distortion = surface_distortion(task.model, at.state.x);
+  if (task.problem.max_distortion > 0) at.distortion = surface_distortion(task.problem.charts, task.model, at.state.x);
 }
 
 Iterate first_iterate(const Task& task) {
@@ -91,7 +91,7 @@ void assemble(ReduceModel& model, const ReduceState& state, double stiffness, Tr
     auto pairs = triangle_sides(model.triangles);
     const auto coupled = coupled_nodes(model, state, contacts);
     pairs.insert(pairs.end(), coupled.begin(), coupled.end());
-    system.matrix.analyse(model.node_count(), pairs, model.has_box ? model.box_node() : -1);
+    system.matrix.analyse(model.node_count(), std::move(pairs), model.has_box ? model.box_node() : -1);
     slots = triangle_slots(system.matrix, model.triangles);
   }
   system.set_zero();
@@ -282,7 +282,7 @@ ReduceResult result_of(const Task& task, const Iterate& best, ReduceStatus statu
   out.within_limit = task.within_limit(best);
   out.pe = best.pe;
   out.energy = best.energy;
-  out.distortion = surface_distortion(model, best.state.x);
+  out.distortion = surface_distortion(task.problem.charts, model, best.state.x);
   out.price = best.price;
   out.iterations = iterations;
   const std::vector<double> energies = energy_of_triangles(task, best.state.x);

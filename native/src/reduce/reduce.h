@@ -37,8 +37,8 @@ struct WarmStart {
 struct ReduceProblem {
   static constexpr int kMostIterations = 600;
 
-  const std::vector<Chart>& charts;         ///< placed, free of flips and crossings, kStartGap times the gap apart; the start
-  std::optional<Objective> objective = {};  ///< of `charts`; nothing: the surface
+  const std::vector<Chart>& charts;      ///< placed, free of flips and crossings, kStartGap times the gap apart; the start
+  const Objective* objective = nullptr;  ///< of `charts`; nothing: the surface
   Gap gap = {};                  ///< smallest distance between charts; within a chart the same, or the start's own if less
   double box_aspect = 0;         ///< width / height, 0 = free
   double pe_target = 0;          ///< in (0, 1), below or above the present PE; 0 = no box: least distortion in open space

@@ -128,7 +128,7 @@ Gap beyond_rounding(Gap gap, Stored stored) {
 
 ReduceProblem problem_at(const PlacedCharts& start, const Objective& objective, const Gap& gap, const SqueezeOptions& options) {
   return {.charts = start.charts,
-          .objective = objective,
+          .objective = &objective,
           .gap = beyond_rounding(gap, options.stored),
           .box_aspect = options.box_aspect,
           .pe_target = options.pe_bound,

@@ -149,7 +149,7 @@ ReduceResult downhill(const Chart& chart, const Objective& objective, int thread
   constexpr double kNegligible = 1e-6;
   const std::vector<Chart> charts = {chart};
   const ReduceProblem problem{.charts = charts,
-                              .objective = objective,
+                              .objective = &objective,
                               .gap = {.value = kGapForLargerBox * Gap{}.value},
                               .negligible = kNegligible,
                               .most_energy = kCollapsed,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "geometry/predicates.h"
 #include "solve/foldover.h"
@@ -47,7 +48,7 @@ Unknowns unknowns_of(const Tangle& tangle, double factor) {
   for (const auto& [a, b] : triangle_sides(tangle.triangles)) {
     if (out.node[a] >= 0 && out.node[b] >= 0) edges.emplace_back(out.node[a], out.node[b]);
   }
-  out.system.matrix.analyse(static_cast<int>(out.masses.size()), edges);
+  out.system.matrix.analyse(static_cast<int>(out.masses.size()), std::move(edges));
   return out;
 }
 

@@ -50,9 +50,10 @@ Renumbered renumber(const std::vector<int>& row_start, const std::vector<int>& r
 
 }  // namespace
 
-void BlockCholesky::analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node) {
+void BlockCholesky::analyse(int node_count, std::vector<std::pair<int, int>> edges, int last_node) {
   const PhaseScope scope(Phase::Order);
   set_pattern(node_count, edges);
+  edges = {};
   const bool same_nodes = static_cast<int>(order_.size()) == node_count && last_node_ == last_node;
   last_node_ = last_node;
   if (same_nodes) {

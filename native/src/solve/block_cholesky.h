@@ -15,7 +15,7 @@ class BlockCholesky {
   /// `edges` are pairs of distinct nodes in any order, duplicates allowed. `last_node` (or -1) is eliminated last: a node that is
   /// coupled to a large part of the others would only disturb the ordering. Analysing a similar pattern anew keeps the order
   /// for as long as that is cheaper than finding a better one.
-  void analyse(int node_count, const std::vector<std::pair<int, int>>& edges, int last_node = -1);
+  void analyse(int node_count, std::vector<std::pair<int, int>> edges, int last_node = -1);
 
   /// Index into `off_diagonal` of the block (min(i, j), max(i, j)), -1 where the pattern has none.
   int slot(int i, int j) const;
