@@ -52,10 +52,18 @@ Renumbered renumber(const std::vector<int>& row_start, const std::vector<int>& r
 
 void BlockCholesky::analyse(int node_count, std::vector<std::pair<int, int>> edges, int last_node) {
   const PhaseScope scope(Phase::Order);
+  diagonal = {};  // whose memory the analysis may have
+  off_diagonal = {};
   set_pattern(node_count, edges);
   edges = {};
   const bool same_nodes = static_cast<int>(order_.size()) == node_count && last_node_ == last_node;
   last_node_ = last_node;
+  analyse_in_order(node_count, same_nodes);
+  diagonal.assign(node_count, Mat2::Zero());
+  off_diagonal.assign(row_nodes_.size(), Mat2::Zero());
+}
+
+void BlockCholesky::analyse_in_order(int node_count, bool same_nodes) {
   if (same_nodes) {
     analyse_factor();
     lost_work_ += factor_.work() - work_when_found_;
@@ -93,8 +101,6 @@ void BlockCholesky::set_pattern(int node_count, const std::vector<std::pair<int,
     row_start_[i + 1] = kept;
   }
   row_nodes_.resize(kept);
-  diagonal.assign(node_count, Mat2::Zero());
-  off_diagonal.assign(kept, Mat2::Zero());
 }
 
 int BlockCholesky::slot(int i, int j) const {
@@ -118,7 +124,7 @@ void BlockCholesky::set_zero() {
 }
 
 std::vector<int> BlockCholesky::minimum_degree_order() const {
-  const int n = node_count();
+  const int n = static_cast<int>(row_start_.size()) - 1;
   // One triangle and the diagonal, which the ordering expects, without the last node's couplings, as compressed columns.
   std::vector<int> starts(n + 1, 0), rows;
   rows.reserve(row_nodes_.size() + n);

@@ -40,6 +40,8 @@ class BlockCholesky {
 
  private:
   void analyse_factor();
+  /// In the present order where the nodes are the same and it still is good enough, else in a new one.
+  void analyse_in_order(int node_count, bool same_nodes);
   void set_pattern(int node_count, const std::vector<std::pair<int, int>>& edges);
   std::vector<int> minimum_degree_order() const;
 
