@@ -3,6 +3,7 @@
 
 #include "cut_checks.h"
 #include "output_checks.h"
+#include "sheets.h"
 
 namespace atlas_refine {
 namespace {
@@ -78,7 +79,9 @@ TEST(Needed, ALowerLimitNeedsMoreBoundary) {
 
 TEST(Needed, WhereNoCutsKeepTheLimitRectanglesDo) {
   const Atlas comb = shapes::mesh(shapes::comb(), 0.1, 0), u = shapes::mesh(shapes::u_shape(), 0.1, 0);
-  const RefineResult result = refine(shapes::combine({comb, u, u}), needed_within(1.0001));  // the second U stays on the first
+  RefineOptions options = needed_within(1.0001);
+  options.box_aspect = 1;
+  const RefineResult result = refine(shapes::combine({comb, u, u}), options);  // the second U stays on the first
   EXPECT_TRUE(result.bound_met);
   EXPECT_LE(result.after.distortion, 1.0001);
   ASSERT_TRUE(result.rectangles.has_value());
@@ -119,6 +122,18 @@ TEST(Needed, AShortCutThatDoesMoreThanForeseenIsFound) {
   EXPECT_EQ(result.new_seams.size(), 3u);
   options.max_boundary_growth = result.boundary_growth + 1e-6;
   EXPECT_EQ(refine_soundly(atlas, options).new_seams.size(), 3u);
+}
+
+TEST(Needed, CutsAlongEdgesAreToldByTheWayThatTheyRun) {
+  // The edges across an arc are the shortest cuts: straight chords lie between them, and run along others for the most part.
+  for (const double turn_rad : {3, 4}) {
+    RefineOptions options = needed_within(1.03);
+    options.cut = Cut::Edges;
+    options.box_aspect = 1;
+    options.effort = Effort::Normal;
+    const RefineResult result = refine_soundly(bent_into_arc(sheet(24, 3), turn_rad), options);
+    EXPECT_EQ(result.new_seams.size(), 6u) << turn_rad;
+  }
 }
 
 TEST(Needed, WhatCannotBeHadTogetherIsNamed) {

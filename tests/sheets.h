@@ -26,6 +26,17 @@ inline Atlas sheet(int columns, int rows) {
   return flat_atlas(positions, faces);
 }
 
+/// The UVs of a sheet along a part of a circle of so many radians, which its first row of vertices is.
+inline Atlas bent_into_arc(Atlas sheet, double turn_rad) {
+  double length = 0;
+  for (const Vec2& uv : sheet.corner_uvs) length = std::max(length, uv.x());
+  for (Vec2& uv : sheet.corner_uvs) {
+    const double radius = length / turn_rad - uv.y(), angle_rad = turn_rad * uv.x() / length;
+    uv = radius * Vec2(std::sin(angle_rad), -std::cos(angle_rad));
+  }
+  return sheet;
+}
+
 /// Every corner's UV moved by up to `amount`, each for itself.
 inline Atlas with_noise(Atlas atlas, double amount) {
   Rng rng(7, 0, 0);

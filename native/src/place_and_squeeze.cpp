@@ -9,6 +9,7 @@
 #include "measure/distortion.h"
 #include "placing.h"
 #include "reduce/goal.h"
+#include "reduce/relax_apart.h"
 #include "reduce/squeeze.h"
 #include "report/locked.h"
 #include "report/note_repairs.h"
@@ -268,8 +269,12 @@ std::optional<Forecast> forecast_anew(const Refinement& run, const CutAtlas& atl
   const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), atlas);
   const std::vector<Chart> pieces = meshes_of(atlas);
   const std::vector<Gap> gaps = gaps_of(run, pieces, freedom, kMostTakenBent);
-  const auto placer = [&](const std::vector<Chart>& charts) {
-    return place(run, charts, freedom, gaps.front(), kNearly * run.options.pe_bound, PackSearch::Quick);
+  // What was bent to make room for a part that has been cut off is packed with the shape that it has without that. How well it
+  // is packed then matters less than how many sets of cuts are looked at.
+  const auto placer = [&](const std::vector<Chart>& charts, const Objective& objective) {
+    const std::vector<Chart> shapes =
+        any_fixed(freedom) ? charts : relaxed_apart(charts, objective, gaps.front(), freedom, run.monitor);
+    return place(run, shapes, freedom, gaps.front(), kNearly * run.options.pe_bound, PackSearch::Rough);
   };
   Forecast out = forecast_squeeze(pieces, goal_of(run.input.set.charts, atlas, run.options), placer,
                                   squeeze_options(run, freedom, gaps), run.monitor);

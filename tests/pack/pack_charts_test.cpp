@@ -107,10 +107,6 @@ TEST(PackCharts, NestedShapesInterlock) {
   EXPECT_GT(pack(charts, {.gap = 0.005}).pe, 0.7);
 }
 
-TEST(PackCharts, QuicklyTheGapIsKeptAsWell) {
-  pack(named_charts(), {.gap = 0.01, .target_pe = 0.9, .search = PackSearch::Quick});
-}
-
 TEST(PackCharts, RoughlyTheGapIsKeptAsWell) {
   pack(named_charts(), {.gap = 0.01, .target_pe = 0.9, .search = PackSearch::Rough});
 }

@@ -71,7 +71,7 @@ TEST(CoarseToFine, AForecastTellsWhatTheChartsComeToFromThere) {
   const std::vector<Chart> charts = charts_of(shapes::mesh(shapes::u_shape(), kFine));
   const Objective objective = make_objective(charts);
   Monitor monitor;
-  const auto where_they_lie = [](const std::vector<Chart>& placed) { return PlacedCharts{.charts = placed}; };
+  const auto where_they_lie = [](const std::vector<Chart>& placed, const Objective&) { return PlacedCharts{.charts = placed}; };
   const Forecast forecast = forecast_squeeze(charts, objective, where_they_lie, options_at(0.8), monitor);
   ASSERT_TRUE(forecast.end.outcome.holds());
   double lost = 0;

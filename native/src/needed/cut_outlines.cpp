@@ -124,16 +124,20 @@ void append_pieces(const Loops& loops, const std::vector<Loss>& bent, double spa
 
 CutOutlines::CutOutlines(const RefineOptions& options, const std::vector<ChartCuts>& charts, const ShapesAsTheyCame& shapes)
     : options_(options), shapes_(shapes) {
-  for (std::size_t c = 0; c < charts.size(); ++c) {
-    const Border border = charts[c].border();
-    Loops& loops = charts_.emplace_back();
-    for (std::size_t l = 0; l < border.loops.size(); ++l) {
-      OutlineLoop& loop = loops.emplace_back(OutlineLoop{border.loops[l], border.at[l], {}});
-      for (const int v : loop.vertices) {
-        if (!shapes.uvs[c].empty()) loop.shape.push_back(value_at(charts[c].mesh().supports[v], shapes.uvs[c]));
-      }
+  for (std::size_t c = 0; c < charts.size(); ++c) charts_.push_back(loops_of(static_cast<int>(c), charts[c]));
+}
+
+Loops CutOutlines::loops_of(int chart, const ChartCuts& cuts) const {
+  const Border border = cuts.border();
+  const std::vector<Vec2>& shape = shapes_.uvs[chart];
+  Loops out;
+  for (std::size_t l = 0; l < border.loops.size(); ++l) {
+    OutlineLoop& loop = out.emplace_back(OutlineLoop{border.loops[l], border.at[l], {}});
+    for (const int v : loop.vertices) {
+      if (!shape.empty()) loop.shape.push_back(value_at(cuts.mesh().supports[v], shape));
     }
   }
+  return out;
 }
 
 double CutOutlines::strain(const std::vector<Loops>& charts) const {
@@ -168,6 +172,12 @@ std::optional<double> CutOutlines::strain_with(const CutPlace& cut) const {
     }
   }
   return std::nullopt;
+}
+
+double CutOutlines::strain_with(int chart, const ChartCuts& cuts) const {
+  std::vector<Loops> charts = charts_;
+  charts[chart] = loops_of(chart, cuts);
+  return strain(charts);
 }
 
 }  // namespace atlas_refine

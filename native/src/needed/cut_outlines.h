@@ -27,8 +27,11 @@ class CutOutlines {
   double strain() const { return strain(charts_); }
   /// The same with one more cut; nothing where that does not run from border to border.
   std::optional<double> strain_with(const CutPlace& cut) const;
+  /// The same with these cuts of one chart instead of those that it has.
+  double strain_with(int chart, const ChartCuts& cuts) const;
 
  private:
+  std::vector<OutlineLoop> loops_of(int chart, const ChartCuts& cuts) const;
   double strain(const std::vector<std::vector<OutlineLoop>>& charts) const;
 
   const RefineOptions& options_;

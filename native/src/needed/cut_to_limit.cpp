@@ -42,7 +42,7 @@ Budget budget_of(Effort effort) {
     case Effort::Fast:
       return {.first_places = 20, .places = 8, .tips = 2, .first = 3, .improving = 8, .forecasts = 20, .squeezes = 10};
     case Effort::Normal:
-      return {.first_places = 30, .places = 14, .tips = 4, .first = 4, .improving = 14, .forecasts = 32, .squeezes = 16};
+      return {.first_places = 30, .places = 14, .tips = 4, .first = 4, .improving = 18, .forecasts = 32, .squeezes = 16};
     case Effort::Best:
       return {.first_places = 60, .places = 40, .tips = 8, .first = 8, .improving = 100, .forecasts = 160, .squeezes = 60};
   }
@@ -179,14 +179,15 @@ class Frontier {
   void add_more(const Trial& present, const SqueezedTrial* squeezed, std::vector<CutPlace> places, double most_growth) {
     ++expansions_;
     savings_.add_useful(places);
-    const Strains strains = trials_.strains(present, places);
+    const Previews previews = trials_.previews(present, places);
     for (std::size_t k = 0; k < places.size(); ++k) {
       const CutPlace& place = places[k];
-      Trial trial{.cuts = present.cuts, .growth = present.growth + trials_.growth_of(place)};
+      const auto& [growth, strain] = previews.with[k];
+      Trial trial{.cuts = present.cuts, .growth = present.growth + growth};
       trial.cuts.push_back(place);
-      if (has(present.cuts, place) || trial.growth > kRoughly * most_growth) continue;
+      if (has(present.cuts, place) || !std::isfinite(growth) || trial.growth > kRoughly * most_growth) continue;
       const double before = likely_excess(present);
-      const double less_strain = strains.with[k] ? strains.present - *strains.with[k] : 0;
+      const double less_strain = strain ? previews.strain - *strain : 0;
       foresee({std::move(trial), before, present.growth, savings_.foresee(place, less_strain, before), squeezed, less_strain});
     }
   }

@@ -10,7 +10,6 @@
 #include "input/price_sides.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
-#include "needed/cut_outlines.h"
 #include "place_and_squeeze.h"
 #include "placing.h"
 #include "rectangles.h"
@@ -258,21 +257,51 @@ std::vector<CutPlace> CutTrials::places(const Trial& present, int straight, int 
   return cut_places(states, straight, tips);
 }
 
-Strains CutTrials::strains(const Trial& present, const std::vector<CutPlace>& places) const {
-  Strains out{.present = 0, .with = std::vector<std::optional<double>>(places.size())};
-  const auto charts = made(present.cuts);
-  if (any_fixed(freedom_) || !charts || !places_anew()) return out;
-  const CutOutlines outlines(run_.options, *charts, shapes_);
-  out.present = outlines.strain();
+/// Edges seldom run straight: only the way along them tells how long a cut is, and what it leaves.
+void CutTrials::preview_along_edges(const std::vector<ChartCuts>& charts, const CutOutlines* outlines,
+                                    const std::vector<CutPlace>& places, std::vector<Preview>& out) const {
+  std::vector<std::vector<int>> paths(places.size());
   parallel_ranges(static_cast<int>(places.size()), run_.threads, 1, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) out.with[k] = outlines.strain_with(places[k]);
+    for (int k = begin; k < end; ++k) {
+      const CutPlace& place = places[k];
+      const ChartCuts& present = charts[place.chart];
+      ChartCuts cuts = present;
+      out[k].growth = std::numeric_limits<double>::infinity();
+      if (!cuts.add(place.chord)) continue;
+      paths[k] = cuts.paths().back();
+      if (paths[k].front() > paths[k].back()) std::reverse(paths[k].begin(), paths[k].end());
+      if (boundary_ > 0) out[k].growth = 2 * (cuts.length() - present.length()) / boundary_;
+      if (outlines) out[k].strain = outlines->strain_with(place.chart, cuts);
+    }
   });
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    for (std::size_t j = 0; j < k; ++j) {
+      if (places[j].chart == places[k].chart && paths[j] == paths[k]) out[k].growth = std::numeric_limits<double>::infinity();
+    }
+  }
+}
+
+Previews CutTrials::previews(const Trial& present, const std::vector<CutPlace>& places) const {
+  Previews out{.strain = 0, .with = {}};
+  for (const CutPlace& place : places) out.with.push_back({growth_of(place), std::nullopt});
+  const auto charts = made(present.cuts);
+  if (!charts) return out;
+  std::optional<CutOutlines> outlines;
+  if (!any_fixed(freedom_) && places_anew()) outlines.emplace(run_.options, *charts, shapes_);
+  if (outlines) out.strain = outlines->strain();
+  if (run_.options.cut == Cut::Edges) {
+    preview_along_edges(*charts, outlines ? &*outlines : nullptr, places, out.with);
+  } else if (outlines) {
+    parallel_ranges(static_cast<int>(places.size()), run_.threads, 1, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) out.with[k].strain = outlines->strain_with(places[k]);
+    });
+  }
   // Once there are cuts most others change next to nothing: what they come to tells more than one rough packing without any.
   std::vector<double> told;
-  for (const auto& with : out.with) {
-    if (with) told.push_back(*with);
+  for (const Preview& preview : out.with) {
+    if (preview.strain) told.push_back(*preview.strain);
   }
-  if (!present.cuts.empty() && !told.empty()) out.present = std::min(out.present, quantile(std::move(told), 0.75));
+  if (!present.cuts.empty() && !told.empty()) out.strain = std::min(out.strain, quantile(std::move(told), 0.75));
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "needed/cut_outlines.h"
 #include "needed/cut_shapes.h"
 #include "reduce/squeeze.h"
 #include "report/solution.h"
@@ -39,10 +40,16 @@ struct SqueezedTrial {
   std::vector<std::string> fallbacks = {}, warnings = {};  ///< told on the way
 };
 
-/// CutOutlines::strain() of some cuts, and with one more of some places.
-struct Strains {
-  double present;
-  std::vector<std::optional<double>> with;
+/// One more cut, as far as that is told before anything is bent.
+struct Preview {
+  double growth;                 ///< of the boundary by this cut alone; infinite where it cannot be made
+  std::optional<double> strain;  ///< CutOutlines::strain() with it; nothing of atlases of many charts
+};
+
+/// Of some cuts, and one more at some places.
+struct Previews {
+  double strain;  ///< of the cuts that there are
+  std::vector<Preview> with;
 };
 
 class CutTrials {
@@ -73,8 +80,9 @@ class CutTrials {
 
   /// Where one more cut may pay; at most so many across charts, and to points of high curvature.
   std::vector<CutPlace> places(const Trial& present, int straight, int tips) const;
-  /// What the pieces are likely to lose, and with each of these cuts; nothing of atlases of many charts.
-  Strains strains(const Trial& present, const std::vector<CutPlace>& places) const;
+  /// What the pieces are likely to lose, and with each of these cuts. Of cuts that would run along the same edges all but the
+  /// first cannot be made.
+  Previews previews(const Trial& present, const std::vector<CutPlace>& places) const;
 
   /// Boundary that a cut adds, roughly, as Trial::growth.
   double growth_of(const CutPlace& place) const;
@@ -86,6 +94,8 @@ class CutTrials {
   std::optional<CutAtlas> in_place(const std::vector<ChartCuts>& charts, const CutAtlas& atlas,
                                    const SqueezedTrial& present) const;
   double growth_of(const std::vector<ChartCuts>& charts) const;
+  void preview_along_edges(const std::vector<ChartCuts>& charts, const CutOutlines* outlines, const std::vector<CutPlace>& places,
+                           std::vector<Preview>& out) const;
   bool leaves_slivers(const std::vector<ChartCuts>& charts) const;
   std::vector<std::vector<Loss>> losses(const CutAtlas& atlas, const Solution& solution) const;
   std::vector<std::vector<Loss>> losses(const CutAtlas& atlas, const Forecast& forecast) const;

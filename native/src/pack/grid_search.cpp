@@ -24,7 +24,7 @@ constexpr int kRoughStarts = 65;  // and that one which tells what they cost
 /// Work of all greedy starts in words looked at: more than atlases of any number of charts need, half a second of tall strips.
 constexpr std::int64_t kGreedyWork = budget(200'000'000);
 /// Cells along the side for sixty charts. More charts need a finer grid, or most of it is what rounding adds to each.
-constexpr double kCells = 256, kCellsOfMany = 512, kCellsOfTooMany = 768, kQuickCells = 128, kRoughCells = 96;
+constexpr double kCells = 256, kCellsOfMany = 512, kCellsOfTooMany = 768, kRoughCells = 96;
 constexpr double kMostCells = 8192;  ///< bounds the memory
 /// Cells are so large that no chart is longer than this many sides of the grid: a needle's length is no measure of the area.
 constexpr double kLongestChart = 16;
@@ -53,10 +53,6 @@ struct Grid {
   std::vector<GridChart> charts;
 };
 
-double least_cells(PackSearch search) {
-  return search == PackSearch::Thorough ? kCells : search == PackSearch::Quick ? kQuickCells : kRoughCells;
-}
-
 Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options, Watch& watch) {
   const int n = static_cast<int>(outlines.size());
   double dilated_area = area, longest = 0;
@@ -66,14 +62,14 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
   }
   Grid grid;
   const double cells = n > kTooManyToCompact ? kCellsOfTooMany : n > kManyCharts ? kCellsOfMany : kCells;
-  const double least = least_cells(options.search);
+  const double least = options.search == PackSearch::Thorough ? kCells : kRoughCells;
   grid.cells_per_side = std::clamp(cells * std::sqrt(n / 60.0), least, kMostCells);
   grid.cell = std::max(std::sqrt(dilated_area / 0.8), longest / kLongestChart) / grid.cells_per_side;
   grid.charts.resize(n);
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       watch.poll(static_cast<double>(i - begin) / (end - begin));
-      for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : options.search == PackSearch::Quick ? 4 : 2))
+      for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : 2))
         grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options.gap, grid.cell));
     }
   });
@@ -122,9 +118,9 @@ std::vector<Placement> placements_of(const Grid& grid, const GridLayout& layout)
 }
 
 int starts_of(int charts, const PackOptions& options) {
-  if (options.search == PackSearch::Rough) return kRoughStarts;
   if (charts > kTooManyToCompact) return 1;
-  return charts > kManyCharts ? std::clamp(2000 / charts, 1, 8) : std::clamp(4000 / charts, 64, 400);
+  if (charts > kManyCharts) return std::clamp(2000 / charts, 1, 8);
+  return options.search == PackSearch::Rough ? kRoughStarts : std::clamp(4000 / charts, 64, 400);
 }
 
 /// Of so many starts, each of which costs `work`.
@@ -150,7 +146,7 @@ class Search {
   std::vector<Placement> run() {
     const int n = static_cast<int>(outlines_.size());
     start_greedily(starts_of(n, options_));
-    if (options_.search != PackSearch::Rough && least_area_ > enough_ && n <= kTooManyToCompact) compact_best(1, 0.3, 0.4);
+    if (options_.search == PackSearch::Thorough && least_area_ > enough_ && n <= kTooManyToCompact) compact_best(1, 0.3, 0.4);
     if (options_.search == PackSearch::Thorough && least_area_ > enough_ && n <= kManyCharts) {
       shrink_best();
       if (least_area_ > enough_) compact_best(kFinalists, 0.9, 1);

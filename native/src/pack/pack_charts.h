@@ -35,8 +35,7 @@ struct Placement {
 
 enum class PackSearch {
   Thorough,
-  Quick,  ///< greedy placements only, rougher but more of them
-  Rough,  ///< few of those: to tell which of many atlases can be packed well
+  Rough,  ///< few greedy placements: to tell which of many atlases can be packed well
 };
 
 struct PackOptions {

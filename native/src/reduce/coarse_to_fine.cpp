@@ -136,7 +136,7 @@ Forecast forecast_squeeze(const std::vector<Chart>& charts, const Objective& obj
   const auto coarse = coarsen(charts, objective, options.freedom);
   const Objective& own = coarse ? coarse->objective : objective;
   const PlacedCharts rough = coarse ? restricted(*coarse, {.charts = charts}) : PlacedCharts{.charts = charts};
-  const PlacedCharts start = place(rough.charts);
+  const PlacedCharts start = place(rough.charts, own);
   Forecast out{.end = squeeze_directly({start}, own, options, monitor), .losses = {}};
   out.losses = losses_of(charts, coarse, own, out.end.outcome);
   return out;

@@ -89,7 +89,8 @@ struct Forecast {
   Squeezed end;
   std::vector<Loss> losses;
 };
-using Placer = std::function<PlacedCharts(const std::vector<Chart>&)>;
+/// Places charts to be squeezed, which are to lose least of the objective.
+using Placer = std::function<PlacedCharts(const std::vector<Chart>&, const Objective&)>;
 
 Forecast forecast_squeeze(const std::vector<Chart>& charts, const Objective& objective, const Placer& place,
                           const SqueezeOptions& options, Monitor& monitor);

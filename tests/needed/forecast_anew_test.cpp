@@ -1,0 +1,24 @@
+// What charts are forecast to come to where they are placed anew.
+#include <gtest/gtest.h>
+
+#include "place_and_squeeze.h"
+#include "sheets.h"
+#include "whole.h"
+
+namespace atlas_refine {
+namespace {
+
+TEST(ForecastAnew, WhatWasBentIsPlacedAsItWillBe) {
+  const Atlas atlas = bent_into_arc(sheet(24, 3), 4);
+  const RefineOptions options{.pe_bound = 0.9, .box_aspect = 8};
+  const InputAtlas input = read_atlas(atlas, options.box_aspect);
+  Monitor monitor;
+  Journal journal(monitor, nullptr, options.box_aspect);
+  const Refinement run{input, options, monitor, journal, 1, options};
+  const auto forecast = forecast_anew(run, whole_charts(run, ProgressRange(0, 1)).atlas);
+  ASSERT_TRUE(forecast.has_value());
+  EXPECT_LT(forecast->end.outcome.energy, 1.001);
+}
+
+}  // namespace
+}  // namespace atlas_refine
