@@ -23,7 +23,7 @@ class Topology:
         self.node = components(corners, np.r_[one, self.next[one]], np.r_[two_start, two_end])
         self.chart = components(faces, self.face[one], self.face[two])
         if as_meant:
-            self._close_two_sided_holes()
+            self._close_two_sided_holes(obj.corner_uv)
         self.sense = self._senses(obj, one, two)
         self.boundary = np.flatnonzero(self.partner < 0)
 
@@ -41,17 +41,20 @@ class Topology:
         self.seams = len(at)
         self.seam_length = float(np.linalg.norm(p[self.next[at]] - p[at], axis=1).sum() / np.linalg.norm(np.ptp(used, axis=0)))
 
-    def _close_two_sided_holes(self):
+    def _close_two_sided_holes(self, uv):
         """Where all other faces around both ends are joined, the two sides of an edge are: no hole has two sides."""
-        free = np.flatnonzero(self.partner < 0)
         ends = {}
-        for c in free:
+        for c in np.flatnonzero(self.partner < 0):
             ends.setdefault((self.node[c], self.node[self.next[c]]), []).append(c)
         for (start, end), own in ends.items():
             others = ends.get((end, start), [])
-            if start < end and len(own) == len(others) == 1:
-                self.partner[own[0]], self.partner[others[0]] = others[0], own[0]
-                self.opposite[[own[0], others[0]]] = True
+            if start > end or len(own) != 1 or len(others) != 1:
+                continue
+            here, there = own[0], others[0]
+            apart = np.linalg.norm(uv[[here, self.next[here]]] - uv[[self.next[there], there]], axis=1).max()
+            if apart < min(np.linalg.norm(uv[c] - uv[self.next[c]]) for c in (here, there)):
+                self.partner[here], self.partner[there] = there, here
+                self.opposite[[here, there]] = True
 
     def _gaps(self, obj):
         """How far apart the UVs of another file with the same faces are across each joined edge: the larger of both ends."""
