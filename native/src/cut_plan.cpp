@@ -19,22 +19,6 @@ namespace {
 constexpr double kGapStep = 0.6;
 constexpr int kGapSteps = 3;  // smaller automatic gaps tried before extra corners
 
-LayoutOptions layout_options(const Refinement& run) {
-  const RefineOptions& options = run.options;
-  LayoutOptions layout{.pe_bound = options.pe_bound,
-                       .box_aspect = options.box_aspect,
-                       .gaps = {options.gap.value_or(Gap{})},
-                       .rectangles = options.rectangles,
-                       .seed = options.seed,
-                       .threads = run.threads};
-  for (int k = 0; !options.gap && k < kGapSteps; ++k) {
-    Gap smaller = layout.gaps.back();
-    smaller.value *= kGapStep;
-    layout.gaps.push_back(smaller);
-  }
-  return layout;
-}
-
 /// Charts may overlap themselves here, but every triangle must be positive.
 RepairedCharts with_positive_triangles(const Refinement& run) {
   RepairOptions options = repair_options(run);
@@ -116,6 +100,22 @@ double energy_of_input(const Refinement& run, const CutAtlas& repaired, const st
 }
 
 }  // namespace
+
+LayoutOptions layout_options(const Refinement& run) {
+  const RefineOptions& options = run.options;
+  LayoutOptions layout{.pe_bound = options.pe_bound,
+                       .box_aspect = options.box_aspect,
+                       .gaps = {options.gap.value_or(Gap{})},
+                       .rectangles = options.rectangles,
+                       .seed = options.seed,
+                       .threads = run.threads};
+  for (int k = 0; !options.gap && k < kGapSteps; ++k) {
+    Gap smaller = layout.gaps.back();
+    smaller.value *= kGapStep;
+    layout.gaps.push_back(smaller);
+  }
+  return layout;
+}
 
 CutPlan plan_cuts(const Refinement& run, const ProgressRange& range) {
   const RefineOptions& options = run.options;

@@ -36,6 +36,9 @@ struct CutPlan {
 /// Throws UnmendedCharts.
 CutPlan plan_cuts(const Refinement& run, const ProgressRange& range);
 
+/// What the layout search is asked for.
+LayoutOptions layout_options(const Refinement& run);
+
 RectangleReport report_of(const CutPlan& plan);
 
 }  // namespace atlas_refine

@@ -38,7 +38,9 @@ constexpr double kCarriedChange = 6e-6;  // nearer to the optimum less changes a
 // Hundreds of pieces may be jammed and slide on and on, by next to nothing: each reduction ends after so many iterations.
 constexpr std::size_t kHundreds = 100;
 constexpr int kMostIterations = 150;
-constexpr double kSpread = 1.01;  // what pieces are put further apart by before the reduction, as a factor on their places
+constexpr std::size_t kOtherWays = 7;   // that pieces are packed in besides, at most,
+constexpr std::size_t kReduced = 6000;  // and as many as so many triangles are reduced in: some tenths of a second
+constexpr double kSpread = 1.01;        // what pieces are put further apart by before the reduction, as a factor on their places
 
 /// How many edges that must stay whole the cuts run along or across.
 int forbidden_edges_cut(const CutPlan& plan, const CutAtlas& cut) {
@@ -111,10 +113,9 @@ CutAtlas cut_along_trails(const Refinement& run, const CutPlan& plan) {
 }
 
 /// The pieces where the layout wants them, a little further apart as far as the bound allows: pieces that touch block each
-/// other's first steps.
-void place(const Refinement& run, const Layout& layout, CutAtlas& cut) {
-  const std::vector<Chart> packed = place_pieces(layout, meshes_of(cut), charts_of(cut));
-  run.journal.show("packed", packed);
+/// other's first steps. Returns them as the layout has them.
+std::vector<Chart> place(const Refinement& run, const Layout& layout, CutAtlas& cut) {
+  std::vector<Chart> packed = place_pieces(layout, meshes_of(cut), charts_of(cut));
   const double factor = std::max(1.0, std::min(kSpread, std::sqrt(layout.pe / (1.01 * run.options.pe_bound))));
   for (std::size_t p = 0; p < packed.size(); ++p) {
     const Vec2 shift = (factor - 1) * uv_box({packed[p]}).min;
@@ -122,6 +123,7 @@ void place(const Refinement& run, const Layout& layout, CutAtlas& cut) {
     for (Vec2& uv : cut.pieces[p].mesh.uvs) uv += shift;
     drop_broken_guards(cut.pieces[p].mesh);  // of polygons that the axes have bent
   }
+  return packed;
 }
 
 /// How far the pieces are reduced.
@@ -219,21 +221,55 @@ Attempt place_around_locked(const Refinement& run, const CutPlan& plan, CutAtlas
   return {.solution = std::move(*out)};
 }
 
+/// The pieces after their first reduction.
+struct FirstReduced {
+  CutAtlas atlas;
+  std::vector<Chart> packed;  ///< before
+  std::string failure = {};   ///< why there is none
+  bool carried = false;       ///< over from coarse charts
+  ReduceResult result = {};   ///< else
+};
+
+FirstReduced first_reduced(const Refinement& run, const Layout& layout, const Reduction& reduction, CutAtlas cut) {
+  FirstReduced out{.atlas = std::move(cut), .packed = {}};
+  out.packed = place(run, layout, out.atlas);
+  const Validity start = certify_charts(meshes_of(out.atlas));
+  if (!start.valid()) {
+    out.failure = "in their layout " + start.problem;
+    return out;
+  }
+  out.carried = reduce_coarsely(run, reduction, out.atlas);
+  if (!out.carried) out.result = reduce(run, reduction, out.atlas);
+  return out;
+}
+
+/// Where few triangles are soon reduced their pieces are packed in several ways: what is best is known only then.
+FirstReduced best_reduced(const Refinement& run, const Layout& layout, const Reduction& reduction, const CutAtlas& cut) {
+  FirstReduced best = first_reduced(run, layout, reduction, cut);
+  if (best.carried || !best.result.holds()) return best;
+  std::size_t triangles = 1;
+  for (const Piece& piece : cut.pieces) triangles += piece.mesh.triangles.size();
+  const int ways = static_cast<int>(std::min(kOtherWays, kReduced / triangles));
+  for (const Layout& other : packed_otherwise(layout, ways, layout_options(run))) {
+    FirstReduced trial = first_reduced(run, other, reduction, cut);
+    if (trial.failure.empty() && trial.result.holds() && trial.result.energy < best.result.energy) best = std::move(trial);
+  }
+  return best;
+}
+
 Attempt cut_across_faces(const Refinement& run, const CutPlan& plan, const ProgressRange& range) {
   const Gap& gap = plan.layout.gap;
   Solution out{.intervention = Intervention::Cut, .atlas = cut_along_trails(run, plan)};
   if (out.atlas.seams.empty()) return {.needless = true};
   if (any_fixed(plan.freedom)) return place_around_locked(run, plan, std::move(out.atlas), range);
-  place(run, plan.layout, out.atlas);
-  const Validity start = certify_charts(meshes_of(out.atlas));
-  if (!start.valid()) return {.failure = "in their layout " + start.problem};
-
   run.journal.begin_stage("reduce", range);  // section 3.3
   Reduction first{.gap = gap, .negligible = kFirstChange, .enough = plan.enough};
   first.gap.value *= kFirstGap;
-  ReduceResult reduced;
-  const bool carried = reduce_coarsely(run, first, out.atlas);
-  if (carried || (reduced = reduce(run, first, out.atlas)).holds()) {
+  auto [atlas, packed, failure, carried, reduced] = best_reduced(run, plan.layout, first, out.atlas);
+  run.journal.show("packed", packed);
+  if (!failure.empty()) return {.failure = std::move(failure)};
+  out.atlas = std::move(atlas);
+  if (carried || reduced.holds()) {
     restore(plan.sources, plan.freedom, out.atlas);
     const double least_change = carried ? kCarriedChange : kLastChange;
     reduced = reduce(run, {.gap = gap, .negligible = least_change, .enough = plan.enough}, out.atlas);

@@ -66,6 +66,22 @@ TEST(SearchLayout, ThreadsAndRepetitionChangeNothing) {
   }
 }
 
+TEST(SearchLayout, OtherPackingsHoldTheBoundAndTheGapToo) {
+  const testing::Laid laid = testing::laid(shapes::mesh(shapes::comb(), 0.06), 0.7);
+  const LayoutOptions options = testing::layout_options(0.7);
+  const std::vector<Layout> others = packed_otherwise(laid.layout, 4, options);
+  ASSERT_FALSE(others.empty());
+  bool moved = false;
+  for (const Layout& other : others) {
+    EXPECT_GE(other.pe, 0.7);
+    expect_apart(other);
+    ASSERT_EQ(other.pieces.size(), laid.layout.pieces.size());
+    for (std::size_t p = 0; p < other.pieces.size(); ++p)
+      moved = moved || other.pieces[p].position != laid.layout.pieces[p].position;
+  }
+  EXPECT_TRUE(moved);
+}
+
 TEST(SearchLayout, ALengthThatCostsMoreIsCutLess) {
   const testing::Laid laid = testing::laid(shapes::mesh(shapes::comb(), 0.06), 0.6, 0.004);
   LayoutOptions options = testing::layout_options(0.6);

@@ -153,14 +153,16 @@ void pack(Candidate& candidate, const Round& round, const LayoutOptions& options
   candidate.score = score_of(candidate, round, options);
 }
 
-/// Annealed besides.
-void pack_well(Candidate& candidate, const Round& round, const LayoutOptions& options, double padding, int k) {
-  const std::vector<Vec2> sizes = sizes_of(candidate, round);
+RectanglePacking annealed(const std::vector<Vec2>& sizes, double padding, double box_aspect, Rng rng) {
   const long n = static_cast<long>(sizes.size());
   const auto iterations = static_cast<int>(std::min<long>(20000, 100L * kAnnealing / (n * n)));
-  Rng rng(options.seed, 200 + round.number, k);
-  RectanglePacking start = pack_rectangles(sizes, padding, options.box_aspect);
-  candidate.packing = anneal_packing(sizes, padding, options.box_aspect, std::move(start), iterations, rng);
+  return anneal_packing(sizes, padding, box_aspect, pack_rectangles(sizes, padding, box_aspect), iterations, rng);
+}
+
+/// Annealed besides.
+void pack_well(Candidate& candidate, const Round& round, const LayoutOptions& options, double padding, int k) {
+  const Rng rng(options.seed, 200 + round.number, k);
+  candidate.packing = annealed(sizes_of(candidate, round), padding, options.box_aspect, rng);
   candidate.score = score_of(candidate, round, options);
 }
 
@@ -295,6 +297,27 @@ Layout search_layout(const std::vector<AxisAlignedChart>& aligned, const std::ve
     if (best.pe >= pe_target(options)) return best;
   }
   return best;
+}
+
+std::vector<Layout> packed_otherwise(const Layout& layout, int ways, const LayoutOptions& options) {
+  const PhaseScope scope(Phase::Layout);
+  std::vector<Vec2> sizes;
+  for (const PlacedPiece& piece : layout.pieces) sizes.push_back(piece.box.size());
+  std::vector<Layout> out;
+  for (int k = 0; k < ways; ++k) {
+    const Rng rng(options.seed, 300, k);
+    const RectanglePacking packing = annealed(sizes, padding_of(layout.gap, layout.box), options.box_aspect, rng);
+    Layout other = layout;
+    other.box = packing.box;
+    other.pe = layout.pe * layout.box.prod() / packing.box.prod();
+    if (other.pe < pe_target(options)) continue;
+    for (std::size_t p = 0; p < sizes.size(); ++p) {
+      other.pieces[p].quarter_turn = packing.turned[p] != 0;
+      other.pieces[p].position = packing.positions[p];
+    }
+    out.push_back(std::move(other));
+  }
+  return out;
 }
 
 }  // namespace atlas_refine

@@ -45,4 +45,7 @@ struct LayoutOptions {
 Layout search_layout(const std::vector<AxisAlignedChart>& aligned, const std::vector<Chart>& sources,
                      const LayoutOptions& options, Monitor& monitor);
 
+/// The same pieces packed in up to `ways` other ways that hold the bound.
+std::vector<Layout> packed_otherwise(const Layout& layout, int ways, const LayoutOptions& options);
+
 }  // namespace atlas_refine
