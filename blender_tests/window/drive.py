@@ -18,13 +18,13 @@ import overlay_tests
 import shapes
 from driver import (
     BUTTON,
-    FOURTH_USE,
     RESULT,
     ROW,
     SEAMS,
     STEP_SECONDS,
     TAB,
     TAB_3D,
+    THIRD_USE,
     click,
     click_at,
     enter_edit_mode,
@@ -147,9 +147,9 @@ def test_seams_as_needed_by_clicks():
     yield 0.5
     picture("trade-off")
     assert uvs(bpy.data.objects["Sheet"]).tobytes() == before.tobytes()
-    seams, distortion, _ = sys.modules[f"{MODULE}.trade_off"].shown.lines[3]
+    seams, distortion, _ = sys.modules[f"{MODULE}.trade_off"].shown.lines[2]
     tasks().last = None
-    yield from click(FOURTH_USE)
+    yield from click(THIRD_USE)
     yield finished
     yield 0.5
     picture("trade-off-used")

@@ -30,8 +30,8 @@ std::string diagram(double left, double bottom, const std::string& title, const 
   const auto [x0, x1] = std::minmax_element(points.begin(), points.end(), by_x);
   const auto [y0, y1] = std::minmax_element(points.begin(), points.end(), by_y);
   const double x_span = std::max(1e-9, x1->x - x0->x), y_span = std::max(1e-9, y1->y - y0->y);
-  const auto x = [&](double value) { return left + kWidth * (value - x0->x) / x_span; };
-  const auto y = [&](double value) { return bottom - kHeight * (value - y0->y) / y_span; };
+  const auto x = [&, low = x0->x](double value) { return left + kWidth * (value - low) / x_span; };
+  const auto y = [&, low = y0->y](double value) { return bottom - kHeight * (value - low) / y_span; };
   std::string out = print("<text x='%.1f' y='%.1f' class='title'>%s</text>\n", left, bottom - kHeight - 18, title.c_str());
   for (int k = 0; k <= kTicks; ++k) {
     const double at_x = x0->x + x_span * k / kTicks, at_y = y0->y + y_span * k / kTicks;
