@@ -11,6 +11,7 @@
 #include "solve/foldover.h"
 #include "solve/newton.h"
 #include "support/profile.h"
+#include "support/quantile.h"
 
 namespace atlas_refine {
 namespace {
@@ -173,10 +174,7 @@ std::optional<std::vector<Vec2>> prolong(const Chart& chart, const CoarseChart& 
 std::vector<Vec2> relax_crushed(const Chart& chart, const ChartObjective& objective, double unit) {
   const PhaseScope scope(Phase::Coarsen);
   Patch patch = patch_of(chart, objective, unit);
-  std::vector<double> sorted = energies(patch);
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  mend(std::vector<double>(patch.elements.size(), kBad * *middle), patch);
+  mend(std::vector<double>(patch.elements.size(), kBad * median(energies(patch))), patch);
   return in_uvs(std::move(patch.x), unit);
 }
 

@@ -16,6 +16,8 @@ namespace {
 
 /// e-folds from the chart's median stretch, above which a triangle at a bad one is drawn out.
 constexpr double kDrawnOut = 1.2;
+/// Of the chart's size: triangles lower than that may flip where the chart is moved.
+constexpr double kRounding = 1e-13;
 
 /// Logarithms of the largest and the least stretch of a positive triangle against the surface.
 std::array<double, 2> log_stretch(const Chart& chart, std::size_t t) {
@@ -29,8 +31,6 @@ std::array<double, 2> log_stretch(const Chart& chart, std::size_t t) {
 }
 
 }  // namespace
-
-constexpr double kRounding = 1e-13;  // of the chart's size: triangles lower than that may flip where the chart is moved
 
 std::vector<char> bad_triangles(const Chart& chart) {
   const double least = kRounding * uv_box({chart}).diagonal();

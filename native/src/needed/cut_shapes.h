@@ -9,8 +9,8 @@
 namespace atlas_refine {
 
 struct ShapesAsTheyCame {
-  std::vector<std::vector<Vec2>>
-      uvs;  ///< per chart its UVs at its wanted density; empty where it was not mended, or opened, or came without a shape
+  /// Per chart its UVs at its wanted density; empty where it was not mended, or opened, or came as a line.
+  std::vector<std::vector<Vec2>> uvs;
   std::vector<std::vector<Loss>> bent;  ///< per chart the E_d that mending has cost, where that lies in the mended chart
 };
 
