@@ -62,8 +62,8 @@ TEST(RefineRectangles, OfManyTrianglesCoarseChartsAreReducedFirst) {
   // Above and below the number from which that is so the same optimum comes out, and the same on any number of threads.
   RefineOptions options = rectangles(0.75);
   const RefineResult few = refine_soundly(shapes::mesh(shapes::star(), 0.02, 0.5), options);
-  const Atlas fine = shapes::mesh(shapes::star(), 0.0048, 0.5);
-  ASSERT_GT(fine.face_count(), 30000);
+  const Atlas fine = shapes::mesh(shapes::star(), 0.01, 0.5);
+  ASSERT_GT(fine.face_count(), 3000);
   const RefineResult many = refine_soundly(fine, options);
   EXPECT_EQ(many.intervention, Intervention::Cut);
   EXPECT_LT(many.after.distortion, few.after.distortion + 0.002);

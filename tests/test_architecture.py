@@ -25,6 +25,7 @@ LEVELS = [
     ["placing"],
     ["rectangle_pictures", "place_and_squeeze", "cut_plan"],
     ["cut_along_edges"],
+    ["reduce_pieces"],
     ["rectangles", "whole"],
     ["needed"],
     ["one_atlas"],

@@ -16,12 +16,12 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kBad = 2;           // times its energy before, or the median: an element that has to be mended
-constexpr int kMostSweeps = 40;      // over the vertices of bad elements
-constexpr int kOwnSweeps = 6;        // without those around them
-constexpr double kFirstBlur = 0.3;   // epsilon of the energy for flipped elements,
-constexpr double kFocus = 0.7;       // falls by this factor in every sweep,
-constexpr double kLeastBlur = 1e-3;  // to this
+constexpr double kBad = 2;          // times its energy before, or the median: an element that has to be mended
+constexpr int kMostSweeps = 100;    // over the vertices of bad elements
+constexpr int kOwnSweeps = 6;       // without those around them
+constexpr double kFirstBlur = 0.3;  // epsilon of the energy for flipped elements,
+constexpr double kFocus = 0.7;      // falls by this factor in every sweep,
+constexpr double kLeastBlur = 0.1;  // to this: with less, steps of single vertices get stuck between flipped ones
 
 /// Elements of a chart in solver units.
 struct Patch {

@@ -299,6 +299,38 @@ Layout search_layout(const std::vector<AxisAlignedChart>& aligned, const std::ve
   return best;
 }
 
+namespace {
+
+/// True where the same pieces lie in the same places, up to reflections of the box and, where it is free, of its axes: what the
+/// pieces press against is the same.
+bool packed_alike(const Layout& a, const Layout& b, bool free_box) {
+  const auto places = [](const Layout& layout, bool swapped, int mirrored) {
+    std::vector<Vec2> out;  // min and max corners, in the first of the two
+    for (const PlacedPiece& piece : layout.pieces) {
+      Vec2 low = piece.position, size = piece.box.size(), box = layout.box;
+      if (piece.quarter_turn) std::swap(size.x(), size.y());
+      if (swapped) std::swap(low.x(), low.y()), std::swap(size.x(), size.y()), std::swap(box.x(), box.y());
+      for (int k = 0; k < 2; ++k) {
+        if (mirrored >> k & 1) low[k] = box[k] - low[k] - size[k];
+      }
+      out.push_back(low);
+      out.push_back(low + size);
+    }
+    return out;
+  };
+  const std::vector<Vec2> first = places(a, false, 0);
+  constexpr double kSlid = 0.02;  // of the diagonal: what has room slides on its own
+  const double tolerance = kSlid * a.box.norm();
+  const auto near = [&](const Vec2& x, const Vec2& y) { return (x - y).norm() < tolerance; };
+  for (int way = 0; way < (free_box ? 8 : 4); ++way) {
+    const std::vector<Vec2> second = places(b, way >= 4, way % 4);
+    if (std::equal(first.begin(), first.end(), second.begin(), second.end(), near)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::vector<Layout> packed_otherwise(const Layout& layout, int ways, const LayoutOptions& options) {
   const PhaseScope scope(Phase::Layout);
   std::vector<Vec2> sizes;
@@ -315,6 +347,8 @@ std::vector<Layout> packed_otherwise(const Layout& layout, int ways, const Layou
       other.pieces[p].quarter_turn = packing.turned[p] != 0;
       other.pieces[p].position = packing.positions[p];
     }
+    const auto like_other = [&](const Layout& known) { return packed_alike(known, other, options.box_aspect == 0); };
+    if (like_other(layout) || std::any_of(out.begin(), out.end(), like_other)) continue;
     out.push_back(std::move(other));
   }
   return out;

@@ -1,0 +1,265 @@
+// Few triangles are reduced as they are; many on coarse charts, which are made anew once the pieces nearly have their shapes.
+#include "reduce_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "coarsen/coarse_atlas.h"
+#include "cut/restore_faces.h"
+#include "geometry/guards.h"
+#include "layout/place_pieces.h"
+#include "measure/certificate.h"
+#include "measure/distortion.h"
+#include "place_and_squeeze.h"
+#include "reduce/goal.h"
+#include "reduce/squeeze.h"
+#include "report/locked.h"
+#include "support/parallel.h"
+
+namespace atlas_refine {
+namespace {
+
+// Until faces are restored pieces are kept so much further apart than the gap, which leaves room for the last steps.
+constexpr double kFirstGap = 1.02;
+// Relative change of E_d at which the reduction before that ends, and the one after (the paper: 1e-4 for several iterations).
+constexpr double kFirstChange = 5e-4;
+constexpr double kLastChange = 2e-5;
+constexpr std::size_t kMany = 3000;      // from so many triangles on coarse charts go first:
+constexpr double kRoughChange = 3e-4;    // those of the deformed pieces come only so near to the optimum anyway,
+constexpr double kCoarseChange = 4e-6;   // while what slides slowly slides on those made anew, where that costs little;
+constexpr double kCarriedChange = 6e-6;  // nearer to the optimum less changes at once
+constexpr int kCoarsenings = 3;          // after the first, each followed by
+constexpr int kFineIterations = 12;      // of all triangles, unless it is the last
+constexpr int kFewIterations = 3;        // take the deformation back within coarse triangles
+// Hundreds of pieces may be jammed and slide on and on, by next to nothing: each reduction ends after so many iterations.
+constexpr std::size_t kHundreds = 100;
+constexpr int kMostIterations = 150;
+constexpr int kOtherWays = 2;           // that pieces are packed in besides, where they are reduced on coarse charts; else
+constexpr std::size_t kReduced = 6000;  // as many as so many triangles are reduced in, some tenths of a second,
+constexpr std::size_t kMostWays = 7;    // and at most these
+constexpr double kSpread = 1.01;        // what pieces are put further apart by before the reduction, as a factor on their places
+
+/// How far pieces are reduced, and from where.
+struct Reduction {
+  Gap gap;
+  double negligible;  ///< ReduceProblem::negligible
+  double enough = 0;  ///< ReduceProblem::enough_distortion
+  int most = ReduceProblem::kMostIterations;
+  std::optional<WarmStart> warm = {};
+};
+
+std::size_t triangle_count(const CutAtlas& cut) {
+  std::size_t count = 0;
+  for (const Piece& piece : cut.pieces) count += piece.mesh.triangles.size();
+  return count;
+}
+
+/// The pieces where the layout wants them, a little further apart as far as the bound allows: pieces that touch block each
+/// other's first steps. Returns them as the layout has them.
+std::vector<Chart> place(const Refinement& run, const Layout& layout, CutAtlas& cut) {
+  std::vector<Chart> packed = place_pieces(layout, meshes_of(cut), charts_of(cut));
+  const double factor = std::max(1.0, std::min(kSpread, std::sqrt(layout.pe / (1.01 * run.options.pe_bound))));
+  for (std::size_t p = 0; p < packed.size(); ++p) {
+    const Vec2 shift = (factor - 1) * uv_box({packed[p]}).min;
+    cut.pieces[p].mesh.uvs = packed[p].uvs;
+    for (Vec2& uv : cut.pieces[p].mesh.uvs) uv += shift;
+    drop_broken_guards(cut.pieces[p].mesh);  // of polygons that the axes have bent
+  }
+  return packed;
+}
+
+/// Pieces, or their coarse charts, and what is wanted of them.
+struct Task {
+  const std::vector<Chart>& charts;
+  const Objective& objective;
+  const Freedoms& freedom;
+};
+
+ReduceResult reduce(const Refinement& run, const Task& task, const Reduction& reduction, int threads) {
+  const int most = task.charts.size() > kHundreds ? kMostIterations : ReduceProblem::kMostIterations;
+  const ReduceProblem problem{.charts = task.charts,
+                              .objective = &task.objective,
+                              .gap = beyond_rounding(reduction.gap, run.options.stored),
+                              .box_aspect = run.options.box_aspect,
+                              .pe_target = run.options.pe_bound,
+                              .enough_distortion = reduction.enough,
+                              .least_change = 0,
+                              .negligible = reduction.negligible,
+                              .max_distortion = run.options.max_distortion.value_or(0),
+                              .max_iterations = std::min(most, reduction.most),
+                              .threads = threads,
+                              .freedom = task.freedom,
+                              .warm = reduction.warm};
+  ReduceResult reduced = reduce_distortion(problem, [&](const ReduceProgress& progress) {
+    run.monitor.report(1 - 1 / (1 + 0.1 * progress.iteration), progress.pe);
+    return !run.monitor.finishing();
+  });
+  reduced.end.near_borders.clear();  // of vertices that coarse charts lack, or that are soon taken out
+  return reduced;
+}
+
+Freedoms freedom_in(const Refinement& run, const CutAtlas& cut) {
+  return freedom_of_pieces(freedom_of(run.input.set, run.options), cut);
+}
+
+/// Moves the pieces to less distortion under the bound.
+ReduceResult reduce(const Refinement& run, const Reduction& reduction, CutAtlas& cut) {
+  const std::vector<Chart> pieces = meshes_of(cut);
+  const Objective objective = goal_of(run.input.set.charts, cut, run.options);
+  const Freedoms freedom = freedom_in(run, cut);
+  ReduceResult reduced = reduce(run, {pieces, objective, freedom}, reduction, run.threads);
+  run.journal.iterations += reduced.iterations;
+  cut = with_uvs(std::move(cut), reduced.uvs);
+  return reduced;
+}
+
+/// The pieces of an atlas with their coarse charts.
+struct CoarsePieces {
+  std::vector<Chart> fine;
+  Objective objective;
+  Freedoms freedom;
+  CoarseAtlas coarse;
+};
+
+/// Nothing where there is little to gain. What stops at some distortion has to see that of the pieces.
+std::optional<CoarsePieces> coarse_pieces(const Refinement& run, const CutPlan& plan, const CutAtlas& cut) {
+  if (triangle_count(cut) < kMany || run.options.max_distortion || plan.enough > 0) return std::nullopt;
+  CoarsePieces out{.fine = meshes_of(cut),
+                   .objective = goal_of(run.input.set.charts, cut, run.options),
+                   .freedom = freedom_in(run, cut),
+                   .coarse = {}};
+  auto coarse = coarsen(out.fine, out.objective, out.freedom);
+  if (!coarse) return std::nullopt;
+  out.coarse = std::move(*coarse);
+  return out;
+}
+
+ReduceResult reduce(const Refinement& run, const CoarsePieces& pieces, const std::vector<Chart>& fine, const Reduction& reduction,
+                    int threads) {
+  const PlacedCharts start = restricted(pieces.coarse, PlacedCharts{.charts = fine});
+  return reduce(run, {start.charts, pieces.coarse.objective, pieces.freedom}, reduction, threads);
+}
+
+/// True where the pieces could be put where their coarse charts have ended; else nothing has changed.
+bool carry_over(const CoarsePieces& pieces, const ReduceResult& end, CutAtlas& cut) {
+  if (!end.holds()) return false;
+  const auto uvs = prolonged(pieces.coarse, pieces.fine, pieces.objective, end.uvs);
+  if (!uvs) return false;
+  CutAtlas carried = with_uvs(cut, *uvs);
+  if (!certify_charts(meshes_of(carried)).valid()) return false;
+  cut = std::move(carried);
+  return true;
+}
+
+/// The pieces after their first reduction.
+struct FirstReduced {
+  ReducedPieces pieces;
+  bool carried = false;  ///< over from coarse charts; `result` is theirs
+};
+
+/// In each layout on the same coarse charts; the best end carried over to the pieces of `at`, which lie as in the first.
+void reduce_coarsely(const Refinement& run, const CutPlan& plan, const std::vector<Layout>& layouts, const Reduction& reduction,
+                     const CutAtlas& cut, FirstReduced& at) {
+  const auto pieces = coarse_pieces(run, plan, at.pieces.atlas);
+  if (!pieces) return;
+  const int count = static_cast<int>(layouts.size());
+  std::vector<ReduceResult> ends(count);
+  parallel_ranges(count, run.threads, 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      std::vector<Chart> start = pieces->fine;
+      if (k > 0) {
+        CutAtlas placed = cut;
+        place(run, layouts[k], placed);
+        for (std::size_t p = 0; p < start.size(); ++p) start[p].uvs = std::move(placed.pieces[p].mesh.uvs);
+      }
+      ends[k] = reduce(run, *pieces, start, reduction, std::max(1, run.threads / count));
+    }
+  });
+  for (const ReduceResult& end : ends) run.journal.iterations += end.iterations;
+  const auto best = std::min_element(ends.begin(), ends.end(), [](const ReduceResult& a, const ReduceResult& b) {
+    return a.holds() != b.holds() ? a.holds() : a.energy < b.energy;
+  });
+  at.carried = carry_over(*pieces, *best, at.pieces.atlas);
+  at.pieces.result = std::move(*best);
+}
+
+FirstReduced placed_in(const Refinement& run, const Layout& layout, CutAtlas cut) {
+  FirstReduced out{.pieces = {.atlas = std::move(cut), .packed = {}}};
+  out.pieces.packed = place(run, layout, out.pieces.atlas);
+  if (const Validity start = certify_charts(meshes_of(out.pieces.atlas)); !start.valid())
+    out.pieces.failure = "in their layout " + start.problem;
+  return out;
+}
+
+/// Pieces are packed in several ways: what is best is known only once they are reduced.
+FirstReduced first_reduced(const Refinement& run, const CutPlan& plan, const CutAtlas& cut) {
+  Reduction reduction{.gap = plan.layout.gap, .negligible = kRoughChange, .enough = plan.enough};
+  reduction.gap.value *= kFirstGap;
+  const std::size_t triangles = triangle_count(cut);
+  const std::size_t ways = triangles < kMany ? std::min(kMostWays, kReduced / (triangles + 1)) : kOtherWays;
+  std::vector<Layout> layouts = packed_otherwise(plan.layout, static_cast<int>(ways), layout_options(run));
+  layouts.insert(layouts.begin(), plan.layout);
+  FirstReduced best = placed_in(run, plan.layout, cut);
+  if (!best.pieces.failure.empty()) return best;
+  reduce_coarsely(run, plan, layouts, reduction, cut, best);
+  if (best.carried) return best;
+  reduction.negligible = kFirstChange;
+  best.pieces.result = reduce(run, reduction, best.pieces.atlas);
+  if (triangles >= kMany || !best.pieces.result.holds()) return best;
+  for (std::size_t k = 1; k < layouts.size(); ++k) {
+    FirstReduced trial = placed_in(run, layouts[k], cut);
+    if (!trial.pieces.failure.empty()) continue;
+    trial.pieces.result = reduce(run, reduction, trial.pieces.atlas);
+    if (trial.pieces.result.holds() && trial.pieces.result.energy < best.pieces.result.energy) best = std::move(trial);
+  }
+  return best;
+}
+
+/// From where coarse charts have ended: no map of their triangles takes back how the axes have deformed the pieces within them.
+/// A few steps do, then new ones, whose triangles have the shapes they want, go on.
+ReduceResult reduce_on(const Refinement& run, const CutPlan& plan, WarmStart warm, CutAtlas& cut) {
+  const Gap& gap = plan.layout.gap;
+  ReduceResult out =
+      reduce(run, {.gap = gap, .negligible = kCarriedChange, .most = kFewIterations, .warm = std::move(warm)}, cut);
+  for (int k = 1; k <= kCoarsenings && out.status == ReduceStatus::OutOfTime; ++k) {
+    const auto pieces = coarse_pieces(run, plan, cut);
+    bool carried = false;
+    if (pieces) {
+      ReduceResult end =
+          reduce(run, *pieces, pieces->fine, {.gap = gap, .negligible = kCoarseChange, .warm = out.end}, run.threads);
+      run.journal.iterations += end.iterations;
+      carried = carry_over(*pieces, end, cut);
+      if (carried) out.end = std::move(end.end);
+    }
+    const bool last = !carried || k == kCoarsenings;
+    const int most = last ? ReduceProblem::kMostIterations : kFineIterations;
+    out = reduce(run, {.gap = gap, .negligible = kCarriedChange, .most = most, .warm = out.end}, cut);
+    if (last) break;
+  }
+  return out;
+}
+
+}  // namespace
+
+ReducedPieces reduce_pieces(const Refinement& run, const CutPlan& plan, CutAtlas cut) {
+  auto [out, carried] = first_reduced(run, plan, cut);
+  if (!out.failure.empty() || !out.result.holds()) return out;
+  restore_pieces(plan.sources, plan.freedom, out.atlas);
+  if (carried)
+    out.result = reduce_on(run, plan, out.result.end, out.atlas);
+  else
+    out.result = reduce(run, {.gap = plan.layout.gap, .negligible = kLastChange, .enough = plan.enough}, out.atlas);
+  return out;
+}
+
+void restore_pieces(const std::vector<Chart>& charts, const Freedoms& freedom, CutAtlas& cut) {
+  const double scale = dirichlet_sums(meshes_of(cut)).best_scale();
+  const std::vector<bool> border_points = points_on_borders(cut);
+  for (Piece& piece : cut.pieces) {
+    if (bends(freedom, piece.chart)) restore_faces(piece, charts[piece.chart], scale, border_points);
+  }
+}
+
+}  // namespace atlas_refine
