@@ -9,7 +9,7 @@ namespace atlas_refine {
 namespace {
 
 Outcome stopped_before_it_began(const RefineOptions& options) {
-  const InputAtlas input = read_atlas(shapes::mesh(shapes::s_shape(), 0.08), options.box_aspect);
+  const InputAtlas input = read_atlas(shapes::mesh(shapes::s_shape(), 0.08), options);
   Monitor monitor;
   monitor.finish();
   Journal journal(monitor, nullptr, options.box_aspect);

@@ -422,5 +422,48 @@ TEST(Groups, TilesStayWhereTheyAre) {
   }
 }
 
+TEST(Groups, EachFillsATextureOfItsOwnShapeWithItsOwnGap) {
+  // Textures of 1024 x 512 and 256 x 512, 4 texels apart.
+  const Atlas one = shapes::combine({star(), moved(star(), {2, 0})});
+  const Atlas other = shapes::combine({star(), moved(star(), {2, 0}), moved(star(), {4, 0})});
+  const Atlas atlas = shapes::combine({one, other});
+  RefineOptions options{.pe_bound = 0.7, .box_aspect = 1, .in_texture = true, .gap = Gap{0.05, Gap::Unit::LongSide}};
+  options.groups.assign(atlas.face_count(), 0);
+  std::fill(options.groups.begin() + one.face_count(), options.groups.end(), 1);
+  options.group_aspects = {2, 0.5};
+  options.group_gaps = {4.0 / 1024, 4.0 / 512};
+  const RefineResult result = refine(atlas, options);
+  EXPECT_TRUE(result.bound_met);
+  ASSERT_EQ(result.groups.size(), 2u);
+  const int faces[] = {0, one.face_count(), atlas.face_count()};
+  for (const int g : {0, 1}) {
+    const double aspect = options.group_aspects[g];
+    const Measures alone = measure(part(atlas, result.corner_uvs, faces[g], faces[g + 1]), aspect, true);
+    EXPECT_GE(alone.pe_fixed_aspect, 0.7);
+    EXPECT_NEAR(alone.pe_fixed_aspect, result.groups[g].after.pe_fixed_aspect, 1e-9);
+    EXPECT_EQ(result.groups[g].gap.value, options.group_gaps[g]);
+    const Vec2 texture(aspect, 1);
+    const double margin = options.group_gaps[g] * texture.maxCoeff();
+    for (int c = atlas.face_offsets[faces[g]]; c < atlas.face_offsets[faces[g + 1]]; ++c) {
+      const Vec2 uv = result.corner_uvs[c].cwiseProduct(texture);
+      EXPECT_GE(uv.minCoeff(), margin - 1e-9);
+      EXPECT_GE((texture - uv).minCoeff(), margin - 1e-9);
+    }
+  }
+}
+
+TEST(Groups, AspectsAndGapsAreChecked) {
+  RefineOptions options;
+  options.group_aspects = {1, 0};
+  EXPECT_THROW(refine(star(), options), RefineError);
+  options = {};
+  options.group_gaps = {0.01};
+  EXPECT_THROW(refine(star(), options), RefineError);
+  options.gap = Gap{};
+  EXPECT_NO_THROW(refine(star(), options));
+  options.group_gaps = {0.2};
+  EXPECT_THROW(refine(star(), options), RefineError);
+}
+
 }  // namespace
 }  // namespace atlas_refine

@@ -11,7 +11,7 @@ namespace {
 
 std::optional<double> without_cuts(const Atlas& atlas, double pe_bound, double most) {
   const RefineOptions options{.pe_bound = pe_bound};
-  const InputAtlas input = read_atlas(atlas, options.box_aspect);
+  const InputAtlas input = read_atlas(atlas, options);
   Monitor monitor;
   Journal journal(monitor, nullptr, options.box_aspect);
   return distortion_without_cuts({input, options, monitor, journal, 1, options}, most);

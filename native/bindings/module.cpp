@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "arrays.h"
 #include "atlas_refine/refine.h"
@@ -24,7 +25,7 @@ const std::string kRefineKeywords =
     "best_effort density uv_density stored sigma candidates omega "
     "until_input "
     "reference importance seed threads name cut open_closed stacks collapsed rotate align_axes triangulate groups group_origins "
-    "group_names keep_shape locked no_seam prefer_seam triangles";
+    "group_aspects group_gaps group_densities group_names keep_shape locked no_seam prefer_seam triangles";
 
 constexpr const char* kArraysDoc = R"(
 
@@ -60,8 +61,9 @@ best_effort      where the bound is not reached return the best valid atlas with
                  "needed" seams the least distorted one; default False
 density          "equal" (default): one scale for all charts; "keep": each chart its own, as far as bending leaves it that; a
                  warning names those whose texel density changed by more than 10 %
-uv_density       of a free box: the size of the result as sqrt(UV area / surface area), UV units per model unit; it may reach
-                 beyond [0, 1]^2 then. 0 (default): the longer side of the box is 1
+uv_density       the size of the result as sqrt(UV area / surface area), UV units (of the texture's height) per model unit. A free
+                 box may reach beyond [0, 1]^2 then; 0 (default): its longer side is 1. With in_texture charts cover what that
+                 size takes, if it is no more than pe_bound, and bend only as far as that asks; else they fill the texture
 sigma            of "rectangles": width of the boundary smoothing as a part of a chart's boundary, in (0, 0.1]; default 0.004
 candidates       of "rectangles": layouts that are packed and scored, at least 1; default 500
 omega            of "rectangles": what added boundary costs against packing efficiency, in [0, 1]; default 0.1
@@ -79,6 +81,9 @@ align_axes       turn moved charts whose longest border runs straight so that it
 triangulate      cut faces become triangles throughout; default False
 groups           (F,) integers >= 0: the atlas that each face belongs to, each with a box of its own; None = one atlas
 group_origins    (G, 2): lower left corner of each group's box; None = (0, 0)
+group_aspects    box_aspect of each group that has a number of its own, in [0.01, 100]; box_aspect for the others
+group_gaps       the same for gap, which must be given; in its gap_unit
+group_densities  the same for uv_density, which must be given
 group_names      what messages call the groups
 keep_shape       (F,) flags: charts with such a face are moved, never bent
 locked           (F,) flags: charts with such a face stay where they are, the others go around them in [0, 1]^2
@@ -168,7 +173,12 @@ py::array_t<std::int32_t> call_charts_of_faces(const py::object& positions, cons
                                                const py::kwargs& kwargs) {
   const Keywords keywords = read_keywords(kwargs, "charts_of_faces", "groups name");
   const Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
-  return to_array(charts_of_faces(atlas, keywords.options.groups));
+  std::vector<int> charts;
+  {
+    const py::gil_scoped_release release;
+    charts = charts_of_faces(atlas, keywords.options.groups);
+  }
+  return to_array(charts);
 }
 
 py::dict call_find_problems(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
@@ -192,7 +202,12 @@ py::dict call_find_problems(const py::object& positions, const py::object& face_
 py::tuple call_group_by_tile(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
                              const py::object& corner_uvs, const py::kwargs& kwargs) {
   const Keywords keywords = read_keywords(kwargs, "group_by_tile", "name");
-  const TileGroups tiles = group_by_tile(to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name));
+  const Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  TileGroups tiles;
+  {
+    const py::gil_scoped_release release;
+    tiles = group_by_tile(atlas);
+  }
   return py::make_tuple(to_array(tiles.groups), to_array(tiles.origins), py::cast(tiles.names));
 }
 

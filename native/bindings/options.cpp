@@ -50,6 +50,12 @@ Reader array_reader(Value RefineOptions::*member, Value (*convert)(const py::obj
   };
 }
 
+Reader numbers_reader(std::vector<double> RefineOptions::*member) {
+  return [=](Keywords& keywords, const py::handle& object, const std::string& keyword) {
+    if (!object.is_none()) keywords.options.*member = read<std::vector<double>>(object, keyword, "a list of numbers");
+  };
+}
+
 Reader flag_reader(bool RefineOptions::*member) {
   return [=](Keywords& keywords, const py::handle& object, const std::string& keyword) {
     keywords.options.*member = read<bool>(object, keyword, "True or False");
@@ -77,6 +83,9 @@ void add_chart_readers(std::map<std::string, Reader>& table) {
   table["triangulate"] = flag_reader(&RefineOptions::triangulate);
   table["groups"] = array_reader(&RefineOptions::groups, &to_numbers);
   table["group_origins"] = array_reader(&RefineOptions::group_origins, &to_points);
+  table["group_aspects"] = numbers_reader(&RefineOptions::group_aspects);
+  table["group_densities"] = numbers_reader(&RefineOptions::group_densities);
+  table["group_gaps"] = numbers_reader(&RefineOptions::group_gaps);
   table["group_names"] = [](Keywords& k, const py::handle& v, const std::string& s) {
     if (!v.is_none()) k.options.group_names = read<std::vector<std::string>>(v, s, "a list of strings");
   };

@@ -25,10 +25,15 @@ bool within_limit(const RefineOptions& options, double distortion) {
   return !options.max_distortion || distortion <= *options.max_distortion * (1 + 1e-9);
 }
 
-/// The UVs are as large as is asked, if anything is.
+/// How much larger the UVs are to be; 1 where nothing is asked.
+double growth_asked(const InputAtlas& input, const RefineOptions& options) {
+  const double height = 1 - 2 * border_of(options);  // of the box within the border, in which the charts are told
+  return options.uv_density == 0 ? 1 : options.uv_density / (texel_density(input.set.charts) * height);
+}
+
 bool has_density(const InputAtlas& input, const RefineOptions& options) {
   constexpr double kRounding = 1e-5;  // of UVs in single precision
-  return options.uv_density == 0 || std::abs(texel_density(input.set.charts) / options.uv_density - 1) < kRounding;
+  return std::abs(growth_asked(input, options) - 1) < kRounding;
 }
 
 /// Valid and, where the box is the texture, within its border: only then PE tells how good it is.
@@ -46,7 +51,8 @@ bool holds_already(const InputAtlas& input, const Freedoms& freedom, const Refin
   if (!is_sound(input, freedom, options, within)) return false;
   const double aspect = options.box_aspect, border = border_of(options);
   const Vec2 box = is_in_texture(freedom, options) ? Vec2(aspect, 1) : box_of_aspect(uv_box(input.set.charts), aspect).size();
-  return !options.gap || (1 - 2 * border) * gap_between_charts(input.set.charts, freedom) >= options.gap->length(box);
+  const double scale = options.in_texture ? growth_asked(input, options) : 1;
+  return !options.gap || scale * (1 - 2 * border) * gap_between_charts(input.set.charts, freedom) >= options.gap->length(box);
 }
 
 /// An automatic gap asks nothing of an atlas that is left as it is.
@@ -80,7 +86,11 @@ CertifiedSolution certified(const Refinement& run, Solution solution, const Prog
   if (run.monitor.finishing()) solution.ended = Ended::Stopped;
   restore_shapes(run.input.set.charts, freedom_of(run.input.set, run.options), solution.atlas);
   // Of the whole texture, where the gap was that of the box within its border.
-  if (border_of(run.asked) > 0) solution.gap = *run.asked.gap;
+  if (border_of(run.asked) > 0) {
+    solution.gap = *run.asked.gap;
+  } else {
+    solution.gap.value /= spare_for_size(run.asked);
+  }
   CertifiedAtlas atlas = certify(run.input, solution.atlas, solution.gap, run.asked);
   return {std::move(solution), std::move(atlas)};
 }

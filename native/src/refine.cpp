@@ -44,12 +44,15 @@ RefineError named(const RefineError& error, const Part& part, const RefineOption
 
 /// One atlas, without the charts that cannot be made valid: those are left as they are. Nothing where none remains. Where no
 /// result of it holds and `failure` is given, it stays as it is, and that says why.
-std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOptions& options, const ProgressRange& range,
+std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOptions& of_all, const ProgressRange& range,
                                        Monitor& monitor, Journal& journal, Part& part, std::vector<LeftChart>& left,
                                        std::optional<RefineError>& failure) {
   const Journal::Mark mark = journal.mark();
+  journal.of_box(options_of_group(of_all, part.group).box_aspect);
   while (!part.charts.empty()) {
+    RefineOptions options = options_of_group(of_all, part.group);
     InputAtlas input = part_of(whole, part.charts, options.box_aspect);
+    options = settle_density(std::move(options), input.set.charts);
     input.origin = origin_of(part, options);
     put_in_texture(input, options);
     try {
@@ -163,7 +166,7 @@ RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, 
   std::optional<Atlas> moved;
   if (!tiles.faces.empty()) (moved = input)->corner_uvs = tiles.corner_uvs;
   const Atlas& atlas = moved ? *moved : input;
-  InputAtlas whole = read_atlas(atlas, options.box_aspect, options.groups);
+  InputAtlas whole = read_atlas(atlas, options);
   journal.show("input", charts_as_placed(whole.set));
   auto [participants, done] = refine_with_stacks(whole, has_uvs, options, monitor, journal);
   RefineResult result;

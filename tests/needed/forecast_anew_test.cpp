@@ -11,7 +11,7 @@ namespace {
 TEST(ForecastAnew, WhatWasBentIsPlacedAsItWillBe) {
   const Atlas atlas = bent_into_arc(sheet(24, 3), 4);
   const RefineOptions options{.pe_bound = 0.9, .box_aspect = 8};
-  const InputAtlas input = read_atlas(atlas, options.box_aspect);
+  const InputAtlas input = read_atlas(atlas, options);
   Monitor monitor;
   Journal journal(monitor, nullptr, options.box_aspect);
   const Refinement run{input, options, monitor, journal, 1, options};

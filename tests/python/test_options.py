@@ -123,6 +123,66 @@ def test_groups_are_atlases_of_their_own():
     assert leaf[:, 0].max() <= 2
 
 
+def test_groups_have_boxes_and_gaps_of_their_own():
+    arrays = shapes.loose()
+    groups = np.where(faces_of(0, 48), 0, 1)
+    common = {"pe_bound": 0.7, "groups": groups, "in_texture": True, "gap": 0.01, "gap_unit": "long_side"}
+    result = atlas_refine.refine(*arrays, **common, group_aspects=[2.0, 0.5], group_gaps=[0.004, 0.008])
+    assert [group.gap.value for group in result.groups] == [0.004, 0.008]
+    for aspect, begin, end in ((2.0, 0, 48), (0.5, 48, 102)):
+        offsets = arrays[1][begin : end + 1] - arrays[1][begin]
+        corners = corners_of(begin, end)
+        own = atlas_refine.measure(
+            arrays[0], offsets, arrays[2][corners], result.corner_uvs[corners], box_aspect=aspect, in_texture=True
+        )
+        assert own.pe_fixed_aspect >= 0.7
+    with pytest.raises(atlas_refine.AtlasRefineError, match="aspects of groups"):
+        atlas_refine.refine(*arrays, **common, group_aspects=[0.0])
+
+
+def test_a_gap_of_a_free_box_with_a_density_is_one_of_the_texture():
+    arrays = shapes.loose()
+    for density in (0.01, 0.1):
+        options = {"pe_bound": 0.6, "uv_density": density, "gap": 0.002, "gap_unit": "long_side"}
+        result = atlas_refine.refine(*arrays, **options)
+        box = np.hypot(result.after.box_width, result.after.box_height)
+        assert 0.002 <= result.after.gap_between * box < 0.01
+        again = atlas_refine.refine(*arrays[:3], result.corner_uvs, **options)
+        assert again.intervention == "unchanged"
+
+
+@pytest.mark.parametrize("gap", [{}, {"gap": 0.004, "gap_unit": "long_side"}])
+@pytest.mark.parametrize("aspect", [1.0, 2.0])
+def test_a_texture_takes_the_density_that_is_asked_where_it_is_large_enough(aspect, gap):
+    arrays = shapes.loose()
+    options = {"pe_bound": 0.8, "box_aspect": aspect, "in_texture": True, "stored": "float32", **gap}
+    full = atlas_refine.refine(*arrays, **options)
+    area = sum(chart.area for chart in full.charts)
+
+    def size(result):
+        return np.sqrt(aspect * uv_area(arrays, result.corner_uvs) / area)
+
+    for part in (0.1, 0.5, 0.9):
+        density = part * size(full)
+        result = atlas_refine.refine(*arrays, uv_density=density, **options)
+        assert size(result) == pytest.approx(density, rel=1e-5)
+        assert result.bound_met
+        assert result.after.pe_fixed_aspect == pytest.approx(part**2 * full.after.pe_fixed_aspect, rel=1e-4)
+        assert result.after.distortion < result.before.distortion + 1e-4
+        own = atlas_refine.measure(*arrays[:3], result.corner_uvs, box_aspect=aspect, in_texture=True)
+        assert atlas_refine.validate(*arrays[:3], result.corner_uvs).valid
+        if gap:
+            margin = 0.004 * max(aspect, 1.0)
+            assert own.gap_between * np.hypot(own.box_width * aspect, own.box_height) >= margin - 1e-6
+            stretched = result.corner_uvs * [aspect, 1.0]
+            assert stretched.min() >= margin - 1e-6
+            assert np.min([aspect, 1.0] - stretched) >= margin - 1e-6
+        again = atlas_refine.refine(*arrays[:3], result.corner_uvs, uv_density=density, **options)
+        assert again.intervention == "unchanged"
+    filled = atlas_refine.refine(*arrays, uv_density=1.2 * size(full), **options)
+    assert np.array_equal(filled.corner_uvs, full.corner_uvs)
+
+
 def test_keep_shape_moves_and_never_bends():
     arrays = shapes.loose()
     result = atlas_refine.refine(*arrays, pe_bound=0.8, keep_shape=faces_of(0, 1))
@@ -199,6 +259,6 @@ def test_a_free_box_takes_the_density_that_is_asked():
         other = atlas_refine.refine(*arrays[:3], result.corner_uvs, pe_bound=0.8, uv_density=2 * density)
         assert other.intervention == "moved"
         assert other.corner_uvs == pytest.approx(2 * result.corner_uvs, rel=1e-5, abs=1e-6 * result.corner_uvs.max())
-    for other in ({"in_texture": True}, {"box_aspect": 1.0}, {"locked": faces_of(0, 48)}):
+    for other in ({"box_aspect": 1.0}, {"locked": faces_of(0, 48)}, {"in_texture": True, "locked": faces_of(0, 48)}):
         with pytest.raises(atlas_refine.AtlasRefineError, match="needs a free box"):
             atlas_refine.refine(*arrays, uv_density=1.0, **other)

@@ -96,8 +96,10 @@ struct RefineOptions {
   /// with Seams::Needed also where max_distortion is missed, the least distorted one.
   bool best_effort = false;
   Density density = Density::Equal;
-  /// Of a free box only: the size of the result, as sqrt(UV area / surface area), UV units per model unit. It may reach beyond
-  /// [0, 1]^2 then. 0 = the longer side of the box is 1.
+  /// The size of the result, as sqrt(UV area / surface area), UV units (of the texture's height) per model unit. A free box may
+  /// reach beyond [0, 1]^2 then; 0 = its longer side is 1. With in_texture charts cover of the texture what that size takes, if
+  /// that is no more than pe_bound, and bend only as far as that asks; else they fill it as without. Not with charts that are
+  /// locked, nor in a box of an aspect that is no texture.
   double uv_density = 0;
   Stored stored = Stored::Double;
   RectangleOptions rectangles;
@@ -121,6 +123,11 @@ struct RefineOptions {
   std::vector<std::string> group_names;  ///< entry g: what messages call group g; may be shorter
   /// Entry g: the lower left corner of the box of group g; (0, 0) for groups beyond its end.
   std::vector<Vec2> group_origins;
+  /// Entry g: width / height of the texture of group g, in [0.01, 100]; `box_aspect` for groups beyond its end.
+  std::vector<double> group_aspects;
+  /// Entry g: the value of `gap` for group g, whose texture may have another size in pixels; needs `gap`.
+  std::vector<double> group_gaps;
+  std::vector<double> group_densities;  ///< entry g: `uv_density` for group g, where that is given
   /// One flag per face, or empty. A chart with a face that is set is only moved: its UVs stay the same shape, to rounding, up to
   /// the scale that `density` gives it.
   std::vector<char> keep_shape;

@@ -18,10 +18,6 @@ constexpr double kFar = 1e3;           // of the median: so long a triangle reac
 constexpr double kTile = 1;            // UV units
 constexpr double kOnEachOther = 1e-4;  // of the UV box: how near stacked charts lie
 
-int group_of(const Chart& chart, const std::vector<int>& groups) {
-  return groups.empty() ? 0 : groups[chart.triangle_faces.front()];
-}
-
 /// Locked charts first, then those that are not mirrored, then the others.
 std::vector<int> leaders_first(const ChartSet& set, std::vector<int> charts, const std::vector<char>& locked) {
   const auto rank = [&](int k) { return any_flagged(set.charts[k], locked) ? 0 : set.mirrored[k] ? 2 : 1; };
@@ -61,6 +57,10 @@ std::vector<int> folds_of_charts(const ChartSet& set) {
 }
 
 }  // namespace
+
+int group_of(const Chart& chart, const std::vector<int>& groups) {
+  return groups.empty() ? 0 : groups[chart.triangle_faces.front()];
+}
 
 bool is_collapsed(const Chart& chart, double box_side) {
   const std::vector<double> extents = extents_of_triangles(chart);

@@ -30,6 +30,9 @@ struct Participants {
   std::vector<int> unstacked;       ///< that lie on others, whose cuts they could not follow
 };
 
+/// The number that the chart's faces have in RefineOptions::groups; 0 where there are none.
+int group_of(const Chart& chart, const std::vector<int>& groups);
+
 /// Left: charts whose UVs are all on a point or a line, unless they are to be embedded, and charts of faces without finite
 /// UVs (`has_uvs` false; empty: all have). Followers: as RefineOptions::stacks says, within one group; charts that are not
 /// mirrored, locked ones before, lead; parts of one folded chart do not follow each other, nor do charts in `apart`.

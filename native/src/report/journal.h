@@ -46,6 +46,8 @@ class Journal {
   /// Puts `prefix` before all fallbacks and warnings since then.
   void prefix_from(const Mark& mark, const std::string& prefix);
 
+  /// Of the box that the charts shown from here on are packed in.
+  void of_box(double box_aspect) { box_aspect_ = box_aspect; }
   bool draws() const { return debug_ != nullptr; }
   void show(const AtlasSnapshot& picture) { debug_->receive(picture); }
   /// Hands the charts to the debug sink, where there is one.

@@ -29,7 +29,7 @@ double bounding_box_diagonal(const Atlas& atlas) {
 Measures measure(const Atlas& atlas, double box_aspect, bool in_texture) {
   check_aspect(box_aspect);
   if (in_texture && box_aspect == 0) box_aspect = 1;
-  const InputAtlas whole = read_atlas(atlas, box_aspect);
+  const InputAtlas whole = read_atlas(atlas, {.box_aspect = box_aspect});
   const Participants all = take_part(whole.set, {}, {});
   Measures measures;
   if (!all.parts.empty()) {
@@ -41,9 +41,10 @@ Measures measure(const Atlas& atlas, double box_aspect, bool in_texture) {
   return measures;
 }
 
-InputAtlas read_atlas(const Atlas& atlas, double box_aspect, const std::vector<int>& groups) {
-  InputAtlas input{atlas, split_charts(atlas, Joining::AsMeant, groups)};
-  stretch_to_texture(input.set.charts, box_aspect);
+InputAtlas read_atlas(const Atlas& atlas, const RefineOptions& options) {
+  InputAtlas input{atlas, split_charts(atlas, Joining::AsMeant, options.groups)};
+  for (Chart& chart : input.set.charts)
+    stretch_to_texture(chart, options_of_group(options, group_of(chart, options.groups)).box_aspect);
   return input;
 }
 
@@ -88,11 +89,13 @@ void measure_seams(const Atlas& atlas, const SeamCount& seams, Measures& measure
   measures.boundary_length = diagonal > 0 ? seams.length / diagonal : 0;
 }
 
-void stretch_to_texture(std::vector<Chart>& charts, double box_aspect) {
+void stretch_to_texture(Chart& chart, double box_aspect) {
   if (box_aspect == 0 || box_aspect == 1) return;
-  for (Chart& chart : charts) {
-    for (Vec2& uv : chart.uvs) uv.x() *= box_aspect;
-  }
+  for (Vec2& uv : chart.uvs) uv.x() *= box_aspect;
+}
+
+void stretch_to_texture(std::vector<Chart>& charts, double box_aspect) {
+  for (Chart& chart : charts) stretch_to_texture(chart, box_aspect);
 }
 
 Measures measure_split(const ChartSet& set, double box_aspect) {

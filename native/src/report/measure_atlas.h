@@ -2,6 +2,7 @@
 #pragma once
 
 #include "atlas_refine/measures.h"
+#include "atlas_refine/options.h"
 #include "geometry/freedom.h"
 #include "input/join_edges.h"
 #include "input/split_charts.h"
@@ -18,8 +19,8 @@ struct InputAtlas {
   Vec2 origin = Vec2::Zero();  ///< lower left corner of the box that the result fills
 };
 
-/// All charts, not measured. Throws RefineError(BadInput) as split_charts() does.
-InputAtlas read_atlas(const Atlas& atlas, double box_aspect, const std::vector<int>& groups = {});
+/// All charts, each in units of its group's texture, not measured. Throws RefineError(BadInput) as split_charts() does.
+InputAtlas read_atlas(const Atlas& atlas, const RefineOptions& options);
 
 /// These charts of it as an atlas of their own, measured.
 InputAtlas part_of(const InputAtlas& whole, const std::vector<int>& charts, double box_aspect);
@@ -38,7 +39,8 @@ inline SeamCount seams_of(const ChartSet& set) { return {set.seam_edges, set.sea
 /// Sets what is measured on seams.
 void measure_seams(const Atlas& atlas, const SeamCount& seams, Measures& measures);
 
-/// The charts' UVs in units of the texture.
+/// UVs in units of the texture.
+void stretch_to_texture(Chart& chart, double box_aspect);
 void stretch_to_texture(std::vector<Chart>& charts, double box_aspect);
 
 /// All of Measures but seams and distortion_to_input, which is 1. The charts are in units of the texture.

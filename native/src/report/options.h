@@ -10,4 +10,7 @@ namespace atlas_refine {
 void check_aspect(double box_aspect);
 void check_options(const Atlas& atlas, const RefineOptions& options);
 
+/// Those of one group, whose box and gap are its own.
+RefineOptions options_of_group(const RefineOptions& options, int group);
+
 }  // namespace atlas_refine

@@ -19,14 +19,25 @@ Vec2 as_stored(const Vec2& uv, Stored stored) {
   return {u, v};
 }
 
+namespace {
+
+/// UVs for each unit of the pieces: the box fills the texture, unless they are to have a size that is smaller.
+Vec2 sides_of_unit(const std::vector<Chart>& pieces, const Vec2& box, const RefineOptions& options) {
+  const double asked = options.uv_density, own = asked > 0 ? texel_density(pieces) : 0;
+  if (options.box_aspect == 0) return Vec2::Constant(asked > 0 ? own / asked : box.maxCoeff());
+  const double height = 1 - 2 * border_of(options);
+  return box * std::max(1.0, asked > 0 ? own * height / (asked * box.y()) : 0.0);
+}
+
+}  // namespace
+
 std::vector<std::vector<Vec2>> stored_uvs(const std::vector<Chart>& pieces, const Vec2& frame, const Vec2& origin,
                                           const RefineOptions& options) {
   const double aspect = options.box_aspect, border = border_of(options);
   const Vec2 corner = aspect > 0 ? Vec2(border / aspect, border) : Vec2(Vec2::Zero()), part = 1 - 2 * corner.array();
   const Box box = frame.x() > 0 ? Box{Vec2::Zero(), frame} : box_of_aspect(uv_box(pieces), aspect * part.x() / part.y());
-  const double unit = options.uv_density > 0 ? texel_density(pieces) / options.uv_density : box.size().maxCoeff();
-  const Vec2 sides = aspect > 0 ? box.size() : Vec2::Constant(unit);
-  const double most = options.uv_density > 0 ? std::numeric_limits<double>::infinity() : 1.0;
+  const Vec2 sides = sides_of_unit(pieces, box.size(), options);
+  const double most = options.uv_density > 0 && aspect == 0 ? std::numeric_limits<double>::infinity() : 1.0;
   std::vector<std::vector<Vec2>> out;
   for (const Chart& piece : pieces) {
     std::vector<Vec2>& uvs = out.emplace_back();

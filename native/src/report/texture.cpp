@@ -2,6 +2,7 @@
 #include "report/texture.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "atlas_refine/error.h"
 #include "report/journal.h"
@@ -24,7 +25,31 @@ bool is_in_texture(const Freedoms& freedom, const RefineOptions& options) { retu
 
 double border_of(const RefineOptions& options) {
   const bool kept = options.in_texture && options.gap && options.gap->value > 0;
-  return kept ? options.gap->length(Vec2(options.box_aspect, 1)) + kBorderSpare : 0;
+  return kept ? spare_for_size(options) * options.gap->length(Vec2(options.box_aspect, 1)) + kBorderSpare : 0;
+}
+
+RefineOptions settle_density(RefineOptions options, const std::vector<Chart>& charts) {
+  constexpr double kRounding = 1e-5;  // of UVs in single precision
+  constexpr double kMostGap = 0.1;
+  if (options.uv_density == 0) return options;
+  double area = 0;
+  for (const Chart& chart : charts) area += options.uv_density * options.uv_density * chart.surface.area();
+  if (!options.in_texture) {
+    if (options.gap && options.gap->unit == Gap::Unit::LongSide)
+      options.gap->value = std::min(options.gap->value / std::sqrt(area), kMostGap);
+    return options;
+  }
+  const double share = area / options.box_aspect;
+  if (share <= options.pe_bound) {
+    options.pe_bound = share * (1 - kRounding);
+  } else {
+    options.uv_density = 0;
+  }
+  return options;
+}
+
+double spare_for_size(const RefineOptions& options) {
+  return options.in_texture && options.uv_density > 0 ? 1 / std::sqrt(options.pe_bound) : 1;  // they cover the texture at most
 }
 
 RefineOptions within_border(RefineOptions options) {
@@ -38,7 +63,7 @@ RefineOptions within_border(RefineOptions options) {
                           " of it, less than the bound " + number_text("%g", options.pe_bound));
   constexpr double kMost = 0.9999;
   options.pe_bound = std::min(options.pe_bound / share, share <= options.pe_bound ? kMost : 1.0);
-  options.gap = Gap{(options.gap->length(texture) + kBorderSpare) / inner.maxCoeff(), Gap::Unit::LongSide};
+  options.gap = Gap{border / inner.maxCoeff(), Gap::Unit::LongSide};
   options.box_aspect = inner.x() / inner.y();
   return options;
 }
