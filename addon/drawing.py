@@ -4,7 +4,10 @@
 import bpy
 
 from .bridge import parts as objects
-from .bridge.texture import find_texture
+from .bridge.texture import find_texture, texture_of_material
+from .core.words import counted, titled
+
+MOST_TEXTURES = 5  # that are named
 
 
 def draw_use(layout, holder):
@@ -14,10 +17,9 @@ def draw_use(layout, holder):
 def draw_main(layout, holder, context):
     active = context.active_object
     layout.prop(holder, "aspect")
-    texture = find_texture(context, active) if holder.aspect == "TEXTURE" else None
+    textures = _textures(holder, context) if holder.aspect == "TEXTURE" else {"": None}
     if holder.aspect == "TEXTURE":
-        text = f"{texture.name}: {texture.width} x {texture.height}" if texture else "No image: square"
-        layout.label(text=text, icon="IMAGE_DATA")
+        _draw_textures(layout, textures)
     layout.prop(holder, "seams")
     layout.prop(holder, "max_distortion")
     if holder.seams == "NEEDED":
@@ -27,7 +29,7 @@ def draw_main(layout, holder, context):
     layout.prop(holder, "gap")
     if holder.gap == "PIXELS":
         layout.prop(holder, "gap_px", text="Pixels")
-    if texture is None and (holder.gap == "PIXELS" or holder.density == "VALUE"):
+    if None in textures.values() and (holder.gap == "PIXELS" or holder.density == "VALUE"):
         layout.prop(holder, "texture_size", text="Texture px")
     layout.prop(holder, "stacks")
     layout.prop(holder, "density", text="Density")
@@ -38,6 +40,24 @@ def draw_main(layout, holder, context):
     layout.prop(holder, "tiles")
     _draw_uv_map(layout, holder, active)
     layout.prop(holder, "write_to")
+
+
+def _textures(holder, context):
+    """By the name of the material where each has its own; of the active object."""
+    active = context.active_object
+    if holder.atlases != "MATERIAL":
+        return {"": find_texture(context, active, holder.atlases)}
+    slots = active.material_slots if active is not None else ()
+    names = [slot.material.name for slot in slots if slot.material]
+    return {name: texture_of_material(context, name) for name in names} or {"": texture_of_material(context, "")}
+
+
+def _draw_textures(layout, textures):
+    for name, texture in list(textures.items())[:MOST_TEXTURES]:
+        text = f"{texture.name}: {texture.width} x {texture.height}" if texture else "No image: square"
+        layout.label(text=titled(name, text) if name else text, icon="IMAGE_DATA")
+    if len(textures) > MOST_TEXTURES:
+        layout.label(text=f"and {counted(len(textures) - MOST_TEXTURES, 'more material')}", icon="BLANK1")
 
 
 def _draw_most_new_seams(layout, holder):

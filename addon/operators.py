@@ -50,7 +50,7 @@ class UV_OT_atlas_refine(Runs, bpy.types.Operator):
             self.report({"ERROR"}, str(error))
             return None
         options = trade_off.picked(to_options(self), None if self.point < 0 else self.point)
-        return self._begun(tasks.Run(context, *options, beside_window))
+        return tasks.Run(context, *options, beside_window)
 
     def _finish(self, run):
         if run.cancelled:
@@ -78,7 +78,8 @@ class UV_OT_atlas_refine_keep_best(bpy.types.Operator):
 
     @classmethod
     def poll(cls, _context):
-        return tasks.running is not None and tasks.running.writes and not tasks.running.finishing
+        run = tasks.running
+        return run is not None and run.writes and run.is_solving and not run.finishing
 
     def execute(self, _context):
         tasks.running.keep_best()
@@ -112,7 +113,7 @@ class UV_OT_atlas_refine_trade_off(Runs, bpy.types.Operator):
 
     def _start(self, context, beside_window=False):
         options = to_options(context.scene.atlas_refine).for_trade_off()
-        return self._begun(trade_off.Search(context, options, beside_window))
+        return trade_off.Search(context, options, beside_window)
 
     def _finish(self, run):
         if run.cancelled:

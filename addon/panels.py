@@ -43,8 +43,8 @@ class _Main:
         settings = context.scene.atlas_refine
         drawing.draw_use(_column(self.layout), settings)
         if tasks.running is not None:
-            progress, fraction = tasks.running.progress
-            versions.progress_bar(self.layout, fraction, phase(progress.stage).capitalize())
+            stage, fraction = tasks.running.progress
+            versions.progress_bar(self.layout, fraction, phase(stage).capitalize())
             if tasks.running.writes:
                 self.layout.operator(operators.UV_OT_atlas_refine_keep_best.bl_idname, icon="CHECKMARK")
             self.layout.label(text="Enter does so too, Esc cancels" if tasks.running.writes else "Esc cancels")
@@ -108,9 +108,13 @@ class _Overlay:
         overlay_settings.draw(self.layout, context)
 
 
-def _draw_density(layout, context, density):
-    for line in density_lines(density):
-        _tell(layout, context, line)
+def _draw_density(layout, context, densities):
+    for name, density in densities:
+        for line in density_lines(density, name if len(densities) > 1 else ""):
+            _tell(layout, context, line)
+    if not densities:
+        return
+    density = max((density for _, density in densities), key=lambda one: one.needed_px)
     if density.size_to_take and not density.of_image:
         button = layout.operator("wm.context_set_int", text=f"Set Texture Size to {density.size_to_take}")
         button.data_path, button.value = "scene.atlas_refine.texture_size", density.size_to_take
@@ -129,7 +133,7 @@ class _Result:
             if done.result is None:
                 _tell(box, context, f"{done.title}: measured", icon="INFO")
                 _tell(box, context, measured(done.measures, done.is_free, done.reached_beyond))
-                _draw_density(box, context, done.density)
+                _draw_density(box, context, done.densities)
             else:
                 self._draw_result(box, context, done)
 
@@ -145,7 +149,7 @@ class _Result:
         lines += [line.capitalize() for line in (*in_parts(distortion(after)), *new_seams(done.result))]
         for line in lines:
             _tell(layout, context, line)
-        _draw_density(layout, context, done.density)
+        _draw_density(layout, context, done.densities)
         if done.result.cut is not None:
             faces = faces_after(done.result, done.face_count)
             _tell(layout, context, f"Faces {done.face_count} -> {faces}, charts {before.chart_count} -> {after.chart_count}")

@@ -8,6 +8,8 @@ from .bridge import parts as objects
 from .core.words import phase, plain, titled
 
 POLL_SECONDS = 0.1
+#: While meshes are read and written, of which each turn does a part.
+STEP_SECONDS = 0.01
 
 
 class OnObjects:
@@ -38,7 +40,7 @@ class Runs(OnObjects):
 
     def execute(self, context):
         run = self._start(context)
-        if run is None:
+        if run is None or not self._has_work(run):
             return {"CANCELLED"}
         while not run.wait(POLL_SECONDS):  # in steps, so that Ctrl-C is heard
             pass
@@ -52,7 +54,8 @@ class Runs(OnObjects):
             return {"CANCELLED"}
         tasks.running = self._run
         self._shown = ""
-        self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
+        self._timer = None
+        self._set_timer(context)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
@@ -63,36 +66,56 @@ class Runs(OnObjects):
         if self._is_keep_best(context, event):
             self._run.keep_best()
             return {"RUNNING_MODAL"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
-        if not self._run.done:
+        if event.type == "TIMER" and self._step(context):
+            self._leave(context)
+            has_work = self._run.cancelled or self._has_work(self._run)
+            return self._finish(self._run) if has_work else {"CANCELLED"}
+        if event.type == "TIMER":
             self._show_progress(context)
-            return {"PASS_THROUGH"}
-        self._leave(context)
-        return self._finish(self._run)
+            self._set_timer(context)
+        # While a mesh is read or written nobody may change it.
+        return {"PASS_THROUGH"} if event.type == "TIMER" or self._run.is_solving else {"RUNNING_MODAL"}
+
+    def _step(self, context):
+        try:
+            return self._run.step()
+        except Exception:  # Blender shows it; the operator has come to its end
+            self._leave(context)
+            raise
 
     def cancel(self, context):
         """Blender ends the operator: another file, a closed window."""
         self._leave(context)
 
-    def _begun(self, run):
-        """The run; None, with the reasons told, where it has nothing to do."""
-        if run.atlases:
-            return run
-        for name, text in run.problems or [("Atlas Refine", "there is nothing to refine")]:
-            self.report_problem(name, text)
-        return None
+    def _has_work(self, run):
+        """Tells the reasons where it has none."""
+        if not run.atlases:
+            for name, text in run.problems or [("Atlas Refine", "there is nothing to refine")]:
+                self.report_problem(name, text)
+        return bool(run.atlases)
+
+    def _set_timer(self, context):
+        seconds = POLL_SECONDS if self._run.is_solving else STEP_SECONDS
+        if self._timer is None or self._seconds != seconds:
+            self._drop_timer(context)
+            self._seconds = seconds
+            self._timer = context.window_manager.event_timer_add(seconds, window=context.window)
+
+    def _drop_timer(self, context):
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
 
     def _is_keep_best(self, context, event):
         is_enter = event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS"
         return is_enter and self._run.writes and drawing.is_over_uv_or_3d_view(context, event)
 
     def _show_progress(self, context):
-        progress, fraction = self._run.progress
+        stage, fraction = self._run.progress
         keys = "stopping" if self._run.finishing else "Enter: stop and keep the best, Esc: cancel"
         if not self._run.writes:
             keys = "Esc: cancel"
-        text = f"Refining: {phase(progress.stage)} {100 * fraction:.0f} % ({keys})"
+        text = f"Refining: {phase(stage)} {100 * fraction:.0f} % ({keys})"
         if text != self._shown:  # each redraw costs the window time
             self._shown = text
             context.workspace.status_text_set(text)
@@ -100,7 +123,7 @@ class Runs(OnObjects):
 
     def _leave(self, context):
         tasks.stop_running()
-        context.window_manager.event_timer_remove(self._timer)
+        self._drop_timer(context)
         if context.workspace is not None:
             context.workspace.status_text_set(None)
         drawing.redraw_panels(context)

@@ -42,13 +42,13 @@ class Search(tasks.Run):
         super().__init__(context, options, SEARCH, beside_window)
 
     def _read(self, context, options):
-        atlases = super()._read(context, options)
-        if sum(atlas.request.box_count for atlas in atlases) > 1:
+        atlases = yield from super()._read(context, options)
+        if sum(len(atlas.request.box_names) for atlas in atlases) > 1:
             self.problems.append(("Trade-off", "it is of one texture: select one object, or charts of one tile and material"))
             return []
         return atlases
 
-    def finish(self):
+    def _write(self):
         """The lines, which the panel shows from now on; none where `problems` says why."""
         global shown, _is_true, _in_doubt
         (atlas,) = self.atlases
@@ -56,14 +56,14 @@ class Search(tasks.Run):
             result = atlas.job.result()
         except tasks.FAILURES as error:
             self.problems.append((atlas.title, str(error)))
-            return ()
+            return
         if not result.cuts:
             self.problems.append((atlas.title, "the map holds what is asked as it is, and there is nothing to choose"))
-            return ()
-        lines = tuple(trade_off_lines(result.cuts.trade_off))
-        shown = Choice(atlas.options, lines, atlas.prints())
+            return
+        prints = yield atlas.prints
+        self._written = tuple(trade_off_lines(result.cuts.trade_off))
+        shown = Choice(atlas.options, self._written, prints)
         _is_true, _in_doubt = True, False
-        return lines
 
 
 def why_not(options):

@@ -65,7 +65,7 @@ class Defaults(unittest.TestCase):
         numbers = np.arange(len(obj.data.polygons), dtype=np.int32) % 3
         obj.data.polygons.foreach_set("material_index", numbers)
         told = messages(bpy.ops.uv.atlas_refine)
-        self.assertIn("Warning: Loose: packed for Skin; of another shape: Hair. Select the charts of one image at a time", told)
+        self.assertIn("Warning: Loose: packed for Skin; of another shape: Hair. By Material each has its own", told)
         numbers[:] = np.minimum(numbers, 1)
         obj.data.polygons.foreach_set("material_index", numbers)
         self.assertNotIn("packed for", messages(bpy.ops.uv.atlas_refine, pe_bound=0.7))

@@ -28,7 +28,8 @@ class Density(unittest.TestCase):
         bpy.context.view_layer.update()
         self.assertEqual(bpy.ops.uv.atlas_refine(density="VALUE", **options), {"FINISHED"})
         (done,) = module("tasks").last
-        return done.density
+        ((_, density),) = done.densities
+        return density
 
     def test_a_free_box_gets_the_value_with_scale_and_unit(self):
         for scale, metres in ((1.0, 1.0), (2.5, 1.0), (1.0, 0.01)):

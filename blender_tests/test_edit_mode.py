@@ -92,17 +92,19 @@ class Speed(unittest.TestCase):
 
     def seconds(self, obj, mode):
         """Of reading an atlas and of writing it, of the processor's time; the least of several."""
-        tasks, bridge = sys.modules[f"{MODULE}.tasks"], sys.modules[f"{MODULE}.bridge.mesh"]
+        atlas_module, bridge = sys.modules[f"{MODULE}.atlas"], sys.modules[f"{MODULE}.bridge.mesh"]
+        at_once = sys.modules[f"{MODULE}.core.steps"].at_once
         options = sys.modules[f"{MODULE}.properties"].to_options(bpy.context.scene.atlas_refine)
         bpy.ops.object.mode_set(mode=mode)
         taken = []
         for _ in range(5):
             began = time.process_time()
-            atlas = tasks.Atlas(bpy.context, [obj], options)
+            atlas = atlas_module.Atlas(options, [obj])
+            at_once(atlas.read(bpy.context, [obj]))
             (part,) = atlas.parts
             self.assertTrue(bridge.read_atlas(obj, part.uv_map).same_as(part.atlas))
             bridge.write_uvs(obj, part.uv_map, part.atlas.corner_uvs)
-            atlas.request.density(options, None, 1.0)
+            list(atlas.request.densities(options, 1.0))
             taken.append(time.process_time() - began)
         return min(taken)
 

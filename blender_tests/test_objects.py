@@ -70,6 +70,58 @@ class Objects(unittest.TestCase):
         self.assertEqual(bpy.ops.uv.atlas_refine(atlases="MATERIAL"), {"FINISHED"})
         self.assertGreaterEqual(texture_share(*objs), 1.6)
 
+    def test_each_material_has_the_shape_and_the_margin_of_its_own_image(self):
+        objs = add_two()
+        sizes = {"Skin": (1024, 256), "Cloth": (256, 512)}
+        for name, size in sizes.items():
+            material = bpy.data.materials.new(name)
+            material.use_nodes = True
+            material.node_tree.nodes.new("ShaderNodeTexImage").image = bpy.data.images.new(f"{name} map", *size)
+            for obj in objs:
+                obj.data.materials.append(material)
+        for polygon in objs[0].data.polygons:
+            polygon.material_index = polygon.index >= 48
+        self.assertNotIn("of another shape", messages(bpy.ops.uv.atlas_refine, atlases="MATERIAL"))
+        self.assertGreaterEqual(texture_share(*objs), 1.6)
+        first, second = uvs_of(objs[0]).astype(np.float64), uvs_of(objs[1]).astype(np.float64)
+        for name, uvs in (("Skin", np.concatenate([first[: 4 * 48], second])), ("Cloth", first[4 * 48 :])):
+            pixels = np.minimum(uvs, 1 - uvs) * sizes[name]
+            self.assertGreaterEqual(pixels.min(), 4.0)
+            self.assertLess(pixels.min(), 4.1)
+        bpy.context.scene.atlas_refine.atlases = "MATERIAL"
+        told = messages(bpy.ops.uv.atlas_refine_measure)
+        self.assertIn("2 objects, Skin: Texture use 8", told)
+        self.assertIn("2 objects, Cloth: Texture use 8", told)
+
+    def test_with_one_each_an_object_has_its_own_image(self):
+        objs = add_two()
+        for obj, size in zip(objs, ((1024, 256), (256, 1024)), strict=True):
+            material = bpy.data.materials.new(obj.name)
+            material.use_nodes = True
+            material.node_tree.nodes.new("ShaderNodeTexImage").image = bpy.data.images.new(obj.name, *size)
+            obj.data.materials.append(material)
+        self.assertEqual(bpy.ops.uv.atlas_refine(atlases="OBJECT"), {"FINISHED"})
+        for obj, size in zip(objs, ((1024, 256), (256, 1024)), strict=True):
+            uvs = uvs_of(obj).astype(np.float64)
+            pixels = np.minimum(uvs, 1 - uvs) * size
+            self.assertGreaterEqual(pixels.min(), 4.0)
+            self.assertLess(pixels.min(), 4.1)
+
+    def test_an_object_without_the_uv_map_is_left_out_and_named(self):
+        for atlases in ("ALL", "OBJECT", "MATERIAL"):
+            with self.subTest(atlases=atlases):
+                fresh_scene()
+                first, second = add_two()
+                first.data.uv_layers.active.name = "Lightmap"
+                before = snapshot(second)
+                told = messages(bpy.ops.uv.atlas_refine, uv_map="Lightmap", atlases=atlases)
+                self.assertIn('Warning: First: left out: Second: the mesh has no UV map "Lightmap"', told)
+                self.assertNotIn("Error", told)
+                self.assertGreaterEqual(texture_share(first), 0.8)
+                self.assertEqual(changes(before, snapshot(second)), [])
+        with self.assertRaisesRegex(RuntimeError, 'First: the mesh has no UV map "Other"'):
+            bpy.ops.uv.atlas_refine(uv_map="Other")
+
     def test_several_objects_in_edit_mode(self):
         objs = add_two()
         bpy.ops.object.mode_set(mode="EDIT")
@@ -199,13 +251,13 @@ class AllOrNothing(unittest.TestCase):
             self.assertNotEqual(changes(held, snapshot(obj)), [])
 
     def test_where_only_uvs_are_written(self):
-        self.check("mesh", "write_uvs", 2)
+        self.check("mesh", "write_in_steps", 2)
 
     def test_with_copies(self):
-        self.check("mesh", "write_uvs", 2, write_to="COPY")
+        self.check("mesh", "write_in_steps", 2, write_to="COPY")
 
     def test_with_cuts_along_edges(self):
-        self.check("mesh", "write_uvs", 2, seams="RECTANGLES")
+        self.check("mesh", "write_in_steps", 2, seams="RECTANGLES")
 
     def test_with_cuts_across_faces(self):
         self.check("cuts", "divide", 2, seams="RECTANGLES", cut="SPLIT")
@@ -269,6 +321,14 @@ class Tiles(unittest.TestCase):
         uvs = uvs_of(self.obj)
         self.assert_within(uvs[:72], (0, 0))
         self.assert_within(uvs[72:], (1, 0))
+
+    def test_a_tile_that_the_image_lacks_is_told(self):
+        self.tiled_image(0)
+        self.assertNotIn("has no tile", messages(bpy.ops.uv.atlas_refine, pe_bound=0.7))
+        set_uvs(self.obj.data.uv_layers.active, self.before + (np.arange(len(self.before)) >= 72)[:, None] * [0.0, 1.0])
+        told = messages(bpy.ops.uv.atlas_refine, pe_bound=0.7)
+        self.assertIn("Warning: Loose: Skin has no tile 1012, in which 16 faces lie and are packed: add it, or move them", told)
+        self.assert_within(uvs_of(self.obj)[72:], (1, 1))
 
     def test_or_only_the_active_one_changes(self):
         self.tiled_image(1)

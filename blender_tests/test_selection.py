@@ -97,6 +97,31 @@ class Selection(unittest.TestCase):
         self.refine()
         self.assertEqual(self.changed_faces(), list(SECOND))
 
+    @unittest.skipUnless(bpy.app.version >= (5, 0, 0), "before 5.0 the mesh's selection is all there is with sync")
+    def test_with_sync_the_uv_editors_own_selection_counts(self):
+        """Vertices of a seam are selected on both sides in the mesh, on one in the UV editor."""
+        self.edit(faces=[*FIRST, *SECOND], uvs=SECOND, sync=True)
+        bmesh.from_edit_mesh(self.obj.data).uv_select_sync_valid = True
+        self.assertEqual(bpy.ops.uv.atlas_refine(**LOW), {"FINISHED"})
+        self.assertEqual(self.changed_faces(), list(SECOND))
+
+    @unittest.skipUnless(bpy.app.version >= (5, 0, 0), "before 5.0 the mesh's selection is all there is with sync")
+    def test_with_sync_what_the_uv_editor_selects_counts(self):
+        bpy.context.scene.tool_settings.use_uv_select_sync = True
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_mode(type="VERT")
+        bpy.ops.mesh.select_all(action="DESELECT")
+        mesh = bmesh.from_edit_mesh(self.obj.data)
+        mesh.uv_select_sync_from_mesh()
+        loops = [loop for face in mesh.faces if face.index in SECOND for loop in face.loops]
+        mesh.uv_select_foreach_set(True, loop_verts=loops)
+        mesh.uv_select_flush_mode()
+        mesh.uv_select_sync_to_mesh()
+        bmesh.update_edit_mesh(self.obj.data)
+        self.assertTrue(mesh.uv_select_sync_valid)
+        self.assertEqual(bpy.ops.uv.atlas_refine(**LOW), {"FINISHED"})
+        self.assertEqual(self.changed_faces(), list(SECOND))
+
     def test_uvs_of_faces_that_the_uv_editor_does_not_show_do_not_count(self):
         self.edit(faces=SECOND, uvs=range(102))
         self.refine()

@@ -9,7 +9,11 @@ import numpy as np
 
 from ..core.atlas import AtlasArrays
 from ..core.borders import are_among
+from ..core.steps import at_once
 from . import versions
+
+#: That are written in edit mode before the window has its turn.
+FACES_OF_A_STEP = 10000
 
 
 class MeshError(Exception):
@@ -53,21 +57,34 @@ def mesh_to_read(obj):
 
 def read_atlas(obj, uv_map):
     """The mesh and the named UV map as it is now; edit mode's pending changes included."""
+    return at_once(read_in_steps(obj, uv_map))
+
+
+def read_in_steps(obj, uv_map):
+    """The same."""
     with mesh_to_read(obj) as mesh:
+        yield
         return atlas_of(mesh, uv_map)
 
 
 def write_uvs(obj, uv_map, uvs):
     """Stores (C, 2) float32 UVs in the named map and nothing else. Raises MeshError where what is then stored is not what was
     given: the old ones are to be written again."""
+    at_once(write_in_steps(obj, uv_map, uvs))
+
+
+def write_in_steps(obj, uv_map, uvs):
+    """The same. What is half written is not drawn, and nothing may change the mesh meanwhile."""
     mesh = obj.data
     if obj.mode == "EDIT":
-        _write_edit_mesh(bmesh.from_edit_mesh(mesh), uv_map, uvs)
+        yield from _write_edit_mesh(bmesh.from_edit_mesh(mesh), uv_map, uvs)
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
     else:
         versions.write_uvs(mesh.uv_layers[uv_map], uvs)
         mesh.update()
+    yield
     with mesh_to_read(obj) as stored:
+        yield
         if versions.read_uvs(stored.uv_layers[uv_map], len(stored.loops)).tobytes() != uvs.tobytes():
             raise MeshError("Blender did not store the new UVs as they were given")
 
@@ -165,9 +182,11 @@ def _positions(mesh):
 def _write_edit_mesh(mesh, uv_map, uvs):
     layer = _edit_layer(mesh, uv_map)
     rows = zip(*uvs.T.tolist(), strict=True)  # one after the other: a list of all would keep Python's garbage collector busy
-    for face in mesh.faces:
+    for number, face in enumerate(mesh.faces, 1):
         for loop in face.loops:
             loop[layer].uv = next(rows)
+        if number % FACES_OF_A_STEP == 0:
+            yield
 
 
 def _edit_layer(mesh, uv_map):

@@ -42,17 +42,22 @@ def users_of(mesh):
 
 
 def read_part(context, obj, options, material_numbers):
-    """`material_numbers`: a dict that is shared by the parts of an atlas, and grows."""
+    """In steps. `material_numbers`: a dict that is shared by the parts of an atlas, and grows."""
     uv_map = bridge.find_uv_map(obj.data, options.uv_map)
+    told_by = selection.told_by(context, obj) if obj.mode == "EDIT" else None
     with bridge.mesh_to_read(obj) as mesh:
+        yield
         atlas = bridge.atlas_of(mesh, uv_map)
-        selected = selection.selected_faces(mesh, uv_map, selection.by_faces(context)) if obj.mode == "EDIT" else None
+        yield
+        triangles = bridge.triangles_of(mesh)
+        yield
+        selected = selection.selected_faces(mesh, uv_map, told_by) if obj.mode == "EDIT" else None
         painted = named.Painted(mesh, obj.vertex_groups, atlas)
         return Part(
             name=obj.name,
             uv_map=uv_map,
             atlas=atlas,
-            triangles=bridge.triangles_of(mesh),
+            triangles=triangles,
             hidden=selection.hidden_faces(mesh),
             selected=np.ones(len(mesh.polygons), dtype=bool) if selected is None else selected,
             pinned=selection.pinned_faces(mesh, uv_map),

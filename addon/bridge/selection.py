@@ -7,11 +7,19 @@ import numpy as np
 from . import versions
 from .mesh import integers
 
+#: What tells which faces of a mesh in edit mode are selected: the mesh in the 3D view, and in the UV editor where it shows the mesh's
+#: selection; else corners of faces that the UV editor shows; or corners alone, where it shows the mesh's selection and yet parts
+#: faces that meet at a seam.
+MESH, SHOWN_CORNERS, CORNERS = range(3)
 
-def by_faces(context):
-    """Whether selected faces are meant: in the 3D view, and in the UV editor where it shows the mesh's selection."""
-    in_3d_view = context.area is not None and context.area.type == "VIEW_3D"
-    return in_3d_view or context.scene.tool_settings.use_uv_select_sync
+
+def told_by(context, obj):
+    """One of the three above."""
+    if context.area is not None and context.area.type == "VIEW_3D":
+        return MESH
+    if not context.scene.tool_settings.use_uv_select_sync:
+        return SHOWN_CORNERS
+    return CORNERS if versions.has_synced_uv_selection(obj.data) else MESH
 
 
 def hidden_faces(mesh):
@@ -19,10 +27,13 @@ def hidden_faces(mesh):
     return _flags(mesh.polygons, "hide")
 
 
-def selected_faces(mesh, uv_map, faces_count):
-    """`faces_count`: by_faces(), else all corners of a face have to be selected."""
+def selected_faces(mesh, uv_map, told_by):
+    """Where corners tell, all of a face have to be selected."""
     faces = _flags(mesh.polygons, "select")
-    return faces if faces_count else faces & _reduced(np.logical_and, mesh, versions.selected_corners(mesh, uv_map))
+    if told_by == MESH:
+        return faces
+    corners = _reduced(np.logical_and, mesh, versions.selected_corners(mesh, uv_map))
+    return corners if told_by == CORNERS else faces & corners
 
 
 def pinned_faces(mesh, uv_map):

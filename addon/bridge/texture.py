@@ -3,18 +3,41 @@
 
 import bpy
 
+from ..core.canvas import Canvas
 from ..core.options import Texture
 
 
-def find_texture(context, obj):
-    """The Texture, or None where no image tells the shape: then it is square."""
-    image = _image_in_editor(context) or _image_of_material(obj.active_material if obj else None)
+def find_texture(context, obj, atlases="ALL"):
+    """The Texture of an object, or None where no image tells the shape: then it is square. What all share is what the UV editor
+    shows, else the image of the active material; where each has its own the other way round."""
+    own, shared = _image_of_material(obj.active_material if obj else None), _image_in_editor(context)
+    return _texture_of(shared or own if atlases == "ALL" else own or shared)
+
+
+def find_canvases(context, objs, materials, atlases):
+    """What an atlas of these objects is packed for: with MATERIAL a Canvas for each of these materials' names."""
+    if atlases != "MATERIAL":
+        return [_canvas(context, find_texture(context, objs[0], atlases))]
+    return [_canvas(context, texture_of_material(context, name), name or "no material") for name in materials]
+
+
+def texture_of_material(context, name):
+    """Of its own image, else of what the UV editor shows."""
+    return _texture_of(_image_of_material(bpy.data.materials.get(name)) or _image_in_editor(context))
+
+
+def _canvas(context, texture, name=""):
+    return Canvas(texture, active_tile(context, texture), name)
+
+
+def _texture_of(image):
     if image is None:
         return None
     width, height = image.size
-    tiled = image.source == "TILED"
-    active = image.tiles.active.number if tiled and image.tiles.active else 1001
-    return Texture(image.name, width, height, tiled, active)
+    if image.source != "TILED":
+        return Texture(image.name, width, height)
+    active = image.tiles.active.number if image.tiles.active else 1001
+    return Texture(image.name, width, height, True, active, tuple(tile.number for tile in image.tiles))
 
 
 def _image_in_editor(context):

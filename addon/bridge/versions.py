@@ -3,6 +3,7 @@
 
 from contextlib import contextmanager
 
+import bmesh
 import bpy
 import gpu
 import numpy as np
@@ -45,6 +46,11 @@ def pinned_corners(mesh, uv_map):
 def selected_corners(mesh, uv_map):
     """The same of what is selected in the UV editor, which has one selection for all maps from 5.0 on."""
     return _corner_flags(mesh, uv_map, "select", (_attribute_name(".vs.", uv_map), ".uv_select_vert"))
+
+
+def has_synced_uv_selection(mesh):
+    """Of a mesh in edit mode: whether its corners are selected by themselves though the UV editor shows the mesh's selection."""
+    return getattr(bmesh.from_edit_mesh(mesh), "uv_select_sync_valid", False)  # 5.0 and later
 
 
 def _attribute_name(prefix, uv_map):

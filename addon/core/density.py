@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Texel density: pixels of the texture for a metre of the surface, of a whole atlas."""
+"""Texel density: pixels of the texture for a metre of the surface."""
 
 import math
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ LEAST_SIZE = 16
 
 @dataclass(frozen=True)
 class Density:
-    """What the panel tells; in pixels per metre."""
+    """What the panel tells of one texture, or tile; in pixels per metre."""
 
     size: tuple  # (width, height) of the texture in pixels
     before: float
@@ -22,6 +22,7 @@ class Density:
     wanted: float = 0.0  # 0: none
     is_free: bool = False  # the UVs have the wanted density, whatever part of the texture, or beyond it, that takes
     box_px: tuple = (0.0, 0.0)  # that they take
+    spare: float = 1.0  # what they may cover of the texture, by what they do, where that is less
     of_image: bool = False  # the size is an image's
 
     @property
@@ -34,7 +35,8 @@ class Density:
         if self.wanted == 0 or self.now == 0:
             return 0
         in_place = self.is_free and self.after is not None
-        return math.ceil((max(self.box_px) if in_place else max(self.size) * self.wanted / self.now) - 1e-3)
+        needed = max(self.box_px) if in_place else max(self.size) * self.wanted / (self.now * math.sqrt(self.spare))
+        return math.ceil(needed * (1 - 1e-4))  # UVs are rounded
 
     @property
     def is_too_small(self):
@@ -49,17 +51,17 @@ class Density:
         return holds if self.is_too_small or holds < max(self.size) else 0
 
 
-def surface_area(positions, face_offsets, corner_vertices):
-    """Of all faces, as flat as they can be."""
+def surface_areas(positions, face_offsets, corner_vertices):
+    """(F,) of the faces, as flat as they can be."""
     x, y, z = positions.astype(np.float64).T
     flat = [(x, y), (y, z), (z, x)]
     twice = [_twice_areas(a[corner_vertices], b[corner_vertices], face_offsets) for a, b in flat]
-    return float(np.sqrt(sum(areas**2 for areas in twice)).sum()) / 2
+    return np.sqrt(sum(areas**2 for areas in twice)) / 2
 
 
-def uv_area(face_offsets, corner_uvs):
-    """Of all faces whose UVs are numbers, also of those turned over."""
-    return float(np.nansum(np.abs(_twice_areas(*corner_uvs.astype(np.float64).T, face_offsets)))) / 2
+def uv_areas(face_offsets, corner_uvs):
+    """(F,) of the faces, also of those turned over; 0 where UVs are no numbers."""
+    return np.abs(np.nan_to_num(_twice_areas(*corner_uvs.astype(np.float64).T, face_offsets))) / 2
 
 
 def pixels_per_metre(area_in_uv, size, area, metres):
@@ -67,11 +69,11 @@ def pixels_per_metre(area_in_uv, size, area, metres):
     return math.sqrt(area_in_uv * size[0] * size[1] / area) / metres if area > 0 else 0.0
 
 
-def density_lines(density):
-    """What the panel says, in lines that a narrow sidebar has room for."""
+def density_lines(density, name=""):
+    """What the panel says, in lines that a narrow sidebar has room for; `name`: of the texture, where there are several."""
     change = "" if density.after is None else f" -> {_short(density.after)}"
-    yield f"Density {_short(density.before)}{change} px/m"
-    yield f"of a texture of {density.size[0]} x {density.size[1]}"
+    yield f"{name + ':' if name else 'Density'} {_short(density.before)}{change} px/m"
+    yield f"of {'its' if name else 'a'} texture of {density.size[0]} x {density.size[1]}"
     if density.needed_px > 0:
         enough = f"{density.size_to_take} would do" if density.size_to_take else "it has them"
         if density.is_too_small:
@@ -80,9 +82,7 @@ def density_lines(density):
 
 
 def too_small(density):
-    """What a script is told where the texture does not hold the wanted density; empty where it does."""
-    if not density.is_too_small:
-        return ""
+    """What a script is told where the texture does not hold the wanted density."""
     needed = f"{_short(density.wanted)} px/m need a texture of {density.needed_px} px"
     return f"{needed} and this one has {max(density.size)}: take {density.size_to_take}"
 

@@ -13,6 +13,7 @@ class Texture:
     height: int
     is_tiled: bool = False
     active_tile: int = 1001
+    tiles: tuple = ()  # numbers of those that a tiled one has
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,22 @@ class Options:
         if self.gap == "PIXELS":
             arguments.update(gap=self.gap_px / self.pixels(texture), gap_unit="long_side")
         return arguments
+
+    def arguments_of_groups(self, textures):
+        """Keywords for boxes that differ; `textures`: of each group. The others are those of engine_arguments(textures[0])."""
+        aspects = [self.box_arguments(texture)["box_aspect"] for texture in textures]
+        gaps = [self.gap_px / self.pixels(texture) for texture in textures]
+        arguments = {"group_aspects": aspects} if len(set(aspects)) > 1 else {}
+        if self.gap == "PIXELS" and len(set(gaps)) > 1:
+            arguments["group_gaps"] = gaps
+        return arguments
+
+    def uv_densities(self, textures, metres):
+        """The wanted density for each of these textures: UV units, of a texture's height, for each of a model's units, which are so
+        many metres; empty where none is asked for."""
+        if self.density != "VALUE":
+            return []
+        return [self.texel_density * metres / self.texture_pixels(texture)[1] for texture in textures]
 
     def for_trade_off(self):
         """The limits choose one outcome; for all there are they do not count."""

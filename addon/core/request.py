@@ -5,9 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .density import Density, pixels_per_metre, surface_area, uv_area
+from .canvas import Canvas, beside_active_tiles, missing_tiles, places_of
+from .density import Density, pixels_per_metre, surface_areas, uv_areas
 from .joined import Joined, corners_of
 from .who import group_faces, groups_without_work, stay
+
+ONE_CANVAS = (Canvas(),)
 
 
 class NothingToDoError(Exception):
@@ -18,46 +21,73 @@ class NothingToDoError(Exception):
 class Request:
     joined: Joined
     arguments: dict  # of atlas_refine.start()
+    textures: tuple  # of each box: a texture, or one of its tiles
+    notes: tuple = ()
 
     @property
     def face_count(self):
         return int(self.joined.first_faces[-1])
 
     @property
-    def box_count(self):
-        """Textures and tiles."""
-        return len(self.arguments.get("group_names", ("",)))
+    def box_names(self):
+        return self.arguments.get("group_names", [""])
+
+    @property
+    def box_aspects(self):
+        return self.arguments.get("group_aspects", [self.arguments["box_aspect"]] * len(self.box_names))
+
+    @property
+    def _groups(self):
+        return self.arguments.get("groups", np.zeros(self.face_count, dtype=np.int32))
 
     def boxes(self):
-        """(name, the four array arguments) of each texture or tile by itself, moved to the first tile."""
+        """(name, the four array arguments, the aspect) of each box by itself, moved to the first tile."""
         positions, offsets, vertices, uvs = self.joined.arrays()
-        groups = self.arguments.get("groups")
-        if groups is None:
-            yield "", (positions, offsets, vertices, uvs)
+        if "groups" not in self.arguments:
+            yield "", (positions, offsets, vertices, uvs), self.box_aspects[0]
             return
-        for group, (name, origin) in enumerate(zip(self.arguments["group_names"], self.arguments["group_origins"], strict=True)):
-            faces = np.flatnonzero(groups == group)
+        named = zip(self.box_names, self.arguments["group_origins"], self.box_aspects, strict=True)
+        for group, (name, origin, aspect) in enumerate(named):
+            faces = np.flatnonzero(self._groups == group)
             corners = corners_of(offsets, faces)
             own_offsets = np.concatenate([[0], np.cumsum(np.diff(offsets)[faces])])
-            yield name, (positions, own_offsets, vertices[corners], uvs[corners] - origin)
+            yield name, (positions, own_offsets, vertices[corners], uvs[corners] - origin), aspect
 
-    def density(self, options, texture, metres, result=None):
-        """The Density of the atlas as it is and as the result has it; `metres`: in a unit of Blender."""
+    def densities(self, options, metres, result=None):
+        """The Density of each box as it is and as the result has it; `metres`: in a unit of Blender."""
+        is_free = "uv_density" in self.arguments and not self.arguments["in_texture"]
         positions, offsets, vertices, uvs = self.joined.arrays()
-        area, size = surface_area(positions, offsets, vertices), options.texture_pixels(texture)
         metres *= self.joined.unit
-        density = Density(
-            size,
-            pixels_per_metre(uv_area(offsets, uvs), size, area, metres),
-            wanted=options.wanted_density,
-            is_free="uv_density" in self.arguments,
-            of_image=options.takes_image(texture),
-        )
-        if result is None:
-            return density
-        after = uv_area(offsets if result.cut is None else result.cut.face_offsets, result.corner_uvs)
-        box = tuple(side * pixels for side, pixels in zip((result.after.box_width, result.after.box_height), size, strict=True))
-        return replace(density, after=pixels_per_metre(after, size, area, metres), box_px=box)
+        areas = self._in_boxes(surface_areas(positions, offsets, vertices))
+        before = self._in_boxes(uv_areas(offsets, uvs))
+        after, boxes = (before, None) if result is None else self._after(result)
+        for k, texture in enumerate(self.textures):
+            size = options.texture_pixels(texture)
+            density = Density(
+                size,
+                pixels_per_metre(before[k], size, areas[k], metres),
+                wanted=options.wanted_density,
+                is_free=is_free,
+                of_image=options.takes_image(texture),
+            )
+            if result is not None:
+                density = replace(density, after=pixels_per_metre(after[k], size, areas[k], metres))
+                if k in boxes:
+                    box = boxes[k].box_width * size[0], boxes[k].box_height * size[1]
+                    density = replace(density, box_px=box, spare=max(1.0, options.pe_bound / boxes[k].pe_fixed_aspect))
+            yield density
+
+    def _in_boxes(self, values, groups=None):
+        """Sums of one value per face."""
+        return np.bincount(self._groups if groups is None else groups, weights=values, minlength=len(self.box_names))
+
+    def _after(self, result):
+        """(UV area of each box, {box: its measures})."""
+        if result.cut is None:
+            areas = self._in_boxes(uv_areas(self.joined.arrays()[1], result.corner_uvs))
+        else:
+            areas = self._in_boxes(uv_areas(result.cut.face_offsets, result.corner_uvs), self._groups[result.cut.face_sources])
+        return areas, {group.group: group.after for group in result.groups} or {0: result.after}
 
     @property
     def reaches_beyond(self):
@@ -70,35 +100,38 @@ class Request:
         return not all(part.taken.all() for part in self.joined.parts)
 
 
-def prepare(engine, parts, options, texture=None, tile=(0, 0), material_names=(), metres=1.0):
-    """`engine`: the atlas_refine module; `tile`: the active one; `metres`: in a unit of Blender. Sets Part.taken.
+def prepare(engine, parts, options, canvases=ONE_CANVAS, metres=1.0):
+    """`engine`: the atlas_refine module; `canvases`: of each material where each has a texture of its own, else the one of all;
+    `metres`: in a unit of Blender. Sets Part.taken.
 
     Raises NothingToDoError."""
     locked = [_choose(engine, part, options) for part in parts]
     _require_work(parts, locked, _why_nothing(parts))
-    of_faces, corners, tile_names = _tiles(engine, parts, options, texture, tile)
+    places = places_of(engine, parts, options, canvases)
+    if options.tiles == "ACTIVE":
+        places = _leave_out(parts, places, beside_active_tiles(places, canvases))
     _require_work(parts, locked, "no chart that may be moved lies in the active tile")
-    by_material = options.atlases == "MATERIAL"
-    materials = np.concatenate([part.materials[part.taken] if by_material else 0 * part.materials[part.taken] for part in parts])
-    codes = np.column_stack([materials, of_faces])
-    groups, first = group_faces(codes)
+    groups, first = group_faces(places.codes)
     idle = groups_without_work(groups, Joined(parts).of_faces(locked))
     if idle.any():
-        _leave_out(parts, idle)
-        codes = codes[~idle]
-        groups, first = group_faces(codes)
+        places = _leave_out(parts, places, idle)
+        groups, first = group_faces(places.codes)
     joined = Joined(parts)
-    arguments = {**options.engine_arguments(texture), **_arguments_of(joined, locked)}
+    used = [(canvases[canvas], tile) for canvas, tile in places.codes[first]]
+    textures = tuple(canvas.texture for canvas, _ in used)
+    arguments = {**options.engine_arguments(textures[0]), **_arguments_of(joined, locked)}
     if "locked" in arguments and options.aspect == "FREE":  # what stays where it is, is somewhere in a texture
         arguments.update(box_aspect=1.0, in_texture=True)
-    if options.wanted_density > 0 and not arguments["in_texture"]:
-        arguments["uv_density"] = options.wanted_density * metres * joined.unit / options.pixels(texture)
-    origins = corners[codes[first, 1]]
+    densities = options.uv_densities(textures, metres * joined.unit)
+    if densities and "locked" not in arguments:
+        arguments["uv_density"] = densities[0]
+    origins = places.corners[places.codes[first, 1]]
     if len(first) > 1 or np.any(origins):
-        labels = [name or "no material" for name in material_names] if by_material else [""]
-        names = [" ".join(filter(None, (labels[material], tile_names[at]))) for material, at in codes[first]]
-        arguments.update(groups=groups, group_origins=origins, group_names=names)
-    return Request(joined, arguments)
+        names = [" ".join(filter(None, (canvas.name, places.names[tile]))) for canvas, tile in used]
+        arguments.update(groups=groups, group_origins=origins, group_names=names, **options.arguments_of_groups(textures))
+        if "uv_density" in arguments and len(set(densities)) > 1:
+            arguments["group_densities"] = densities
+    return Request(joined, arguments, textures, tuple(missing_tiles(places, canvases)))
 
 
 def _choose(engine, part, options):
@@ -127,27 +160,14 @@ def _require_work(parts, locked, why):
         raise NothingToDoError(why)
 
 
-def _tiles(engine, parts, options, texture, tile):
-    """(tile of each taken face, lower left corners, names); with ACTIVE only its faces are taken from here on."""
-    wanted = options.tiles_of(texture)
-    joined = Joined(parts)
-    if wanted == "ONE":
-        return np.zeros(joined.first_faces[-1], dtype=np.int32), np.zeros((1, 2)), [""]
-    tiles, corners, names = engine.group_by_tile(*joined.arrays())
-    if wanted == "ACTIVE":
-        others = ~np.all(corners[tiles] == tile, axis=1)
-        _leave_out(parts, others)
-        tiles = tiles[~others]
-    return tiles, corners, names
-
-
-def _leave_out(parts, flags):
-    """Takes the flagged ones of the taken faces out."""
+def _leave_out(parts, places, flags):
+    """Takes the flagged ones of the taken faces out. Returns the places of the others."""
     first = 0
     for part in parts:
         taken = np.flatnonzero(part.taken)
         part.taken[taken[flags[first : first + len(taken)]]] = False
         first += len(taken)
+    return places.without(flags)
 
 
 def _arguments_of(joined, locked):

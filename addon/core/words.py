@@ -45,6 +45,7 @@ def phase(stage):
         "reduce": "relaxing",
         "certify": "checking",
         "compare": "comparing",
+        "write": "writing",
     }.get(stage, stage)
 
 

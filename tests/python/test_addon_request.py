@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 import shapes
 from core.atlas import AtlasArrays, stored_uvs
+from core.canvas import Canvas
 from core.cuts import plan_cut
 from core.joined import Part
-from core.options import Options
+from core.options import Options, Texture
 from core.request import NothingToDoError, prepare
 
 FREE = Options(aspect="FREE", gap="AUTO")
@@ -108,7 +109,7 @@ def test_groups_by_material_across_meshes():
     parts = [make_part(name="A"), make_part(name="B")]
     parts[0].materials[48:] = 1
     parts[1].materials[:] = 1
-    request = prepare(atlas_refine, parts, Options(gap="AUTO", atlases="MATERIAL"), material_names=["Skin", "Cloth"])
+    request = prepare(atlas_refine, parts, Options(gap="AUTO", atlases="MATERIAL"), [Canvas(name="Skin"), Canvas(name="Cloth")])
     assert request.arguments["group_names"] == ["Skin", "Cloth"]
     assert np.array_equal(np.bincount(request.arguments["groups"]), [48, 54 + 102])
 
@@ -123,18 +124,38 @@ def test_tiles_each_by_itself_or_only_the_active_one():
     assert uvs[:64].max() <= 1.0
     assert uvs[64:, 0].min() >= 1.0
     parts = [make_part(shapes.join(*tiles))]
-    request = prepare(atlas_refine, parts, Options(gap="AUTO", tiles="ACTIVE"), tile=(1, 0))
+    request = prepare(atlas_refine, parts, Options(gap="AUTO", tiles="ACTIVE"), [Canvas(tile=(1, 0))])
     assert request.face_count == 18
     assert run(request).corner_uvs[:, 0].min() >= 1.0
     with pytest.raises(NothingToDoError, match="active tile"):
-        prepare(atlas_refine, [make_part(shapes.join(*tiles))], Options(tiles="ACTIVE"), tile=(5, 0))
+        prepare(atlas_refine, [make_part(shapes.join(*tiles))], Options(tiles="ACTIVE"), [Canvas(tile=(5, 0))])
+
+
+def test_materials_have_boxes_margins_and_tiles_of_their_own_images():
+    tiles = [shapes.grid(4, 4, scale=0.1, bend=0.7), shapes.grid(6, 3, scale=0.1, origin=(1.1, 0.1), bend=1.2)]
+    part = make_part(shapes.join(*tiles, shapes.grid(5, 5, scale=0.1, origin=(1.2, 0.1))))
+    part.materials[34:] = 1
+    canvases = [
+        Canvas(Texture("Skin", 1024, 512, True, 1001, (1001,)), name="Skin"),
+        Canvas(Texture("Cloth", 256, 256), name="Cloth"),
+    ]
+    request = prepare(atlas_refine, [part], Options(atlases="MATERIAL"), canvases)
+    arguments = request.arguments
+    assert arguments["group_names"] == ["Skin 1001", "Skin 1002", "Cloth"]
+    assert np.array_equal(arguments["group_origins"], [[0, 0], [1, 0], [0, 0]])
+    assert arguments["group_aspects"] == [2.0, 2.0, 1.0]
+    assert arguments["group_gaps"] == [4 / 1024, 4 / 1024, 4 / 256]
+    assert request.notes == ("Skin has no tile 1002, in which 18 faces lie and are packed: add it, or move them",)
+    request = prepare(atlas_refine, [part], Options(atlases="MATERIAL", aspect="SQUARE"), canvases)
+    assert "group_aspects" not in request.arguments
+    assert "group_gaps" not in request.arguments
 
 
 def test_a_group_that_is_locked_as_a_whole_is_left_out():
     part = make_part()
     part.materials[48:] = 1
     part.pinned = faces(part, *FIRST)
-    request = prepare(atlas_refine, [part], Options(gap="AUTO", atlases="MATERIAL"), material_names=["Skin", "Cloth"])
+    request = prepare(atlas_refine, [part], Options(gap="AUTO", atlases="MATERIAL"), [Canvas(name="Skin"), Canvas(name="Cloth")])
     assert request.face_count == 54
     assert "locked" in request.arguments
 

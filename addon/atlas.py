@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One atlas: its meshes are read, the engine runs, what comes of it is written. What takes long is done in steps (core/steps.py)."""
+
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+
+import bpy
+import numpy as np
+
+from . import engine
+from .bridge import cuts
+from .bridge import mesh as bridge
+from .bridge import parts as objects
+from .bridge.texture import find_canvases, of_another_shape
+from .core.atlas import stored_uvs
+from .core.cuts import plan_cut, seam_edges
+from .core.density import too_small
+from .core.request import prepare
+from .core.words import counted, titled
+
+
+@dataclass(frozen=True)
+class Done:
+    """A result, or measures, that the panel shows."""
+
+    title: str
+    face_count: int
+    is_free: bool
+    reached_beyond: bool  # charts lay beside the texture
+    max_distortion: float  # that was asked for; 0: none
+    result: object = None
+    measures: object = None
+    densities: tuple = ()  # (name of the texture or tile, core.density.Density)
+    notes: tuple = ()
+    left: tuple = ()  # (object's name, faces) of charts that were left as they are
+    new_seams: tuple = ()  # (object's name, (S, 2) vertices) of edges that were cut
+    prints: tuple = ()  # (object's name, UV map, fingerprint) of what it is true of
+
+    @property
+    def told(self):
+        """What a script should know, one line each; the panel tells of densities elsewhere."""
+        sizes = [titled(name, too_small(density)) for name, density in self.densities if density.is_too_small]
+        return (*self.notes, *sizes)
+
+
+class Atlas:
+    """One run of the engine. Holds names, not Blender's data: undo may replace that meanwhile."""
+
+    def __init__(self, options, objs):
+        self.options = options
+        self.title = objs[0].name if len(objs) == 1 else counted(len(objs), "object")
+        self.job = None
+
+    def read(self, context, objs):
+        """In steps. Raises one of tasks.FAILURES where the objects cannot be refined so."""
+        options, material_numbers = self.options, {}
+        self.metres = context.scene.unit_settings.scale_length
+        self.parts = []
+        for obj in objs:
+            self.parts.append((yield from _read(context, obj, options, material_numbers)))
+        _require_names(self.parts, options)
+        materials = list(material_numbers)
+        canvases = find_canvases(context, objs, materials, options.atlases)
+        self.request = yield lambda: prepare(engine.module, self.parts, options, canvases, self.metres)
+        if options.seams != "NONE" and options.cut == "SPLIT":
+            for obj in objs:
+                cuts.check_divisible(obj)
+            if self.request.leaves_faces_out:
+                raise bridge.MeshError("cuts across faces need all charts of the mesh: show all, or cut along edges")
+        notes = (note for obj in objs for note in _notes(obj))
+        self.notes = [*notes, *self.request.notes, *self._notes_on_images(materials)]
+
+    def _notes_on_images(self, materials):
+        texture = self.request.textures[0]
+        if self.options.atlases == "MATERIAL" or not self.options.takes_image(texture):
+            return
+        used = {materials[number] for part in self.parts for number in np.unique(part.materials[part.taken])}
+        others = of_another_shape(texture, used)
+        if others:
+            yield f"packed for {texture.name}; of another shape: {', '.join(others)}. By Material each has its own"
+
+    def start(self, threads, keywords):
+        name = self.title if len(self.parts) == 1 else ""
+        self.job = engine.start(*self.request.joined.arrays(), name=name, threads=threads, **self.request.arguments, **keywords)
+
+    def write(self, result):
+        """In steps, between which nothing may change the meshes. Raises one of tasks.FAILURES with all of them as they were."""
+        objs = []
+        for part in self.parts:
+            objs.append((yield from _still_there(part)))
+        if result.intervention == "unchanged":
+            return (yield lambda: self._done(result, self.prints()))
+        uvs = yield lambda: stored_uvs(result.corner_uvs)
+        write = self._write_uvs if result.cut is None else self._write_cut
+        with ExitStack() as on_failure:
+            maps = [self._target(obj, part, on_failure) for obj, part in zip(objs, self.parts, strict=True)]
+            seams, prints = yield from write(objs, maps, result, uvs, on_failure)
+            on_failure.pop_all()
+        return (yield lambda: self._done(result, prints, seams))
+
+    def _target(self, obj, part, on_failure):
+        """The name of the UV map that is to be written."""
+        if self.options.write_to != "COPY":
+            return part.uv_map
+        copied, before = bridge.add_copy(obj, part.uv_map)
+        on_failure.callback(bridge.remove_copy, obj, copied, before)
+        return copied
+
+    def _write_uvs(self, objs, maps, result, uvs, on_failure):
+        seams, written, prints = yield lambda: self._planned(result, uvs, maps)
+        for part, obj, uv_map, atlas in zip(self.parts, objs, maps, written, strict=True):
+            on_failure.callback(bridge.write_uvs, obj, uv_map, part.atlas.corner_uvs)
+            yield from bridge.write_in_steps(obj, uv_map, atlas.corner_uvs)
+        if self.options.mark_seams:
+            for obj, edges in zip(objs, seams, strict=True):
+                bridge.mark_seams(obj, edges)
+        return seams, prints
+
+    def _planned(self, result, uvs, maps):
+        """(new seams of each part, its arrays once it is written, by which they are known again)."""
+        joined = self.request.joined
+        seams = [seam_edges(part.atlas, joined.seams_of(k, result.new_seams)) for k, part in enumerate(self.parts)]
+        written = [replace(part.atlas, corner_uvs=joined.uvs_of(k, uvs)) for k, part in enumerate(self.parts)]
+        return seams, written, self._prints_of(maps, [atlas.fingerprint() for atlas in written])
+
+    def _write_cut(self, objs, maps, result, uvs, _on_failure):
+        """What can fail is done for every object before the first is changed: divided faces are not put together again."""
+        rehearsed, seams = [], []
+        for k, (obj, uv_map) in enumerate(zip(objs, maps, strict=True)):
+            cuts.check_divisible(obj)  # again: its mode may be another by now
+            plan = yield lambda k=k: plan_cut(self.parts[k].atlas, *self.request.joined.cut_of(k, result.cut, uvs))
+            rehearsed.append(cuts.rehearse_cut(obj, uv_map, plan, self.options.mark_seams))
+            seams.append(plan.new_seams)
+        for write in rehearsed:
+            write()
+        return seams, self._prints_of(maps, [print_of(obj.name, uv_map) for obj, uv_map in zip(objs, maps, strict=True)])
+
+    def _done(self, result, prints, seams=()):
+        new_seams = tuple(zip((part.name for part in self.parts), seams, strict=False))
+        densities = tuple(self._densities(result))
+        return self._shown(prints, self.title, densities=densities, result=result, left=self._left(result), new_seams=new_seams)
+
+    def prints(self):
+        """By which the meshes are known again, as they were read."""
+        return self._prints_of([part.uv_map for part in self.parts], [part.atlas.fingerprint() for part in self.parts])
+
+    def _prints_of(self, maps, fingerprints):
+        return tuple(zip((part.name for part in self.parts), maps, fingerprints, strict=True))
+
+    def _left(self, result):
+        """Nothing where faces were divided: their numbers are others now."""
+        if result.cut is not None:
+            return ()
+        left = np.array([chart.fate == "left" for chart in result.charts])[result.face_charts]
+        return tuple((part.name, self.request.joined.faces_of(k, left)) for k, part in enumerate(self.parts))
+
+    def measure(self):
+        """What the panel shows of the meshes as they are: a Done for each texture or tile."""
+        prints = self.prints()
+        densities = list(self._densities())
+        for (name, arrays, aspect), density in zip(self.request.boxes(), densities, strict=True):
+            measures = engine.measure(*arrays, box_aspect=aspect, in_texture=self.request.arguments["in_texture"])
+            title = ", ".join(filter(None, (self.title, name)))
+            yield self._shown(prints, title, densities=(("", density[1]),), measures=measures)
+
+    def _shown(self, prints, title, **found):
+        request = self.request
+        is_free = not request.arguments["in_texture"]
+        beyond = request.reaches_beyond and not is_free
+        fixed = (title, request.face_count, is_free, beyond, self.options.max_distortion)
+        return Done(*fixed, notes=tuple(self.notes), prints=prints, **found)
+
+    def _densities(self, result=None):
+        return zip(self.request.box_names, self.request.densities(self.options, self.metres, result), strict=True)
+
+
+def _still_there(part):
+    """The object of that name, in steps, where it still holds what was read."""
+    obj = bpy.data.objects.get(part.name)
+    if obj is None or obj.type != "MESH":
+        raise bridge.MeshError(f"{part.name} is gone; nothing was written")
+    if part.uv_map in obj.data.uv_layers:
+        atlas = yield from bridge.read_in_steps(obj, part.uv_map)
+        if (yield lambda: atlas.same_as(part.atlas)):
+            return obj
+    raise bridge.MeshError("the mesh was changed meanwhile; nothing was written")
+
+
+def _read(context, obj, options, material_numbers):
+    try:
+        return (yield from objects.read_part(context, obj, options, material_numbers))
+    except bridge.MeshError as error:
+        raise bridge.MeshError(f"{obj.name}: {error}") from error
+
+
+def _require_names(parts, options):
+    for option in ("keep_shape", "importance", "no_seam", "prefer_seam"):
+        name = getattr(options, option)
+        if name and all(getattr(part, option) is None for part in parts):
+            what = "edge attribute" if option.endswith("seam") else "vertex group and no face attribute"
+            raise bridge.MeshError(f'there is no {what} "{name}"')
+
+
+def _notes(obj):
+    users = objects.users_of(obj.data)
+    if users > 1:
+        yield f"{obj.name}: {users} objects share the mesh, and all of them change"
+    if bridge.has_uneven_scale(obj):
+        yield f"{obj.name}: the object's scale is uneven; the UVs follow the mesh without it"
+
+
+def print_of(object_name, uv_map):
+    """Of all that a result is true of; None where it is gone."""
+    obj = bpy.data.objects.get(object_name)
+    if obj is None or obj.type != "MESH" or uv_map not in obj.data.uv_layers:
+        return None
+    return bridge.read_atlas(obj, uv_map).fingerprint()

@@ -1,0 +1,84 @@
+"""How long the window waits for the add-on at once, in processor time of its thread."""
+
+import sys
+import time
+
+import bpy
+import shapes
+from driver import enter_edit_mode, finished, tasks
+from support import MODULE, add_mesh
+
+MOST_SECONDS = 0.2  # 0.1 s is promised, on a machine that has nothing else to do
+QUADS = 183**2  # of each of three charts
+
+
+class Turns:
+    """What each call of the operator's own functions takes."""
+
+    def __init__(self):
+        self._operator = sys.modules[f"{MODULE}.operators"].UV_OT_atlas_refine
+        self._kept = {name: getattr(self._operator, name) for name in ("invoke", "modal")}
+        self.seconds = []
+
+    def __enter__(self):
+        for name, function in self._kept.items():
+            setattr(self._operator, name, self._timed(function))
+        return self
+
+    def __exit__(self, *_):
+        for name in self._kept:
+            delattr(self._operator, name)
+
+    def _timed(self, function):
+        def timed(operator, context, event):  # Blender counts the arguments
+            began = time.thread_time()
+            try:
+                return function(operator, context, event)
+            finally:
+                self.seconds.append(time.thread_time() - began)
+
+        return timed
+
+
+def large_mesh():
+    side = round(QUADS**0.5)
+    charts = [shapes.grid(side, side, scale=0.5 / side, origin=(0.6 * k, 0.0), bend=0.6) for k in range(3)]
+    return add_mesh(shapes.join(*charts), name="Large")
+
+
+def measured(mode, pe_bound):
+    tasks().last = None
+    with Turns() as turns:
+        assert bpy.ops.uv.atlas_refine("INVOKE_DEFAULT", pe_bound=pe_bound) == {"RUNNING_MODAL"}
+        yield finished
+    longest, total = max(turns.seconds), sum(turns.seconds)
+    print(f"{mode}: the window waits {longest:.3f} s at once, {total:.3f} s in all, {len(turns.seconds)} turns", flush=True)
+    assert longest < MOST_SECONDS
+    assert tasks().last[0].result.intervention != "unchanged"
+
+
+def test_the_window_never_waits_for_long():
+    obj = large_mesh()
+    bpy.context.view_layer.objects.active = obj
+    yield from measured("object mode", 0.7)
+    enter_edit_mode()
+    yield from measured("edit mode", 0.9)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.data.objects.remove(obj)
+
+
+def test_esc_while_meshes_are_read():
+    obj = large_mesh()
+    bpy.context.view_layer.objects.active = obj
+    tasks().last = None
+    meshes = len(bpy.data.meshes)
+    enter_edit_mode()
+    assert bpy.ops.uv.atlas_refine("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    run = tasks().running
+    assert not run.is_solving
+    run.cancel()
+    yield lambda: tasks().running is None
+    assert len(bpy.data.meshes) == meshes
+    assert not run.atlases
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.data.objects.remove(obj)
