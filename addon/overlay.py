@@ -9,6 +9,7 @@ from functools import cached_property
 
 import bpy
 import gpu
+import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
@@ -16,7 +17,7 @@ from . import engine, preferences, tasks
 from .bridge import mesh as bridge
 from .bridge import parts as objects
 from .bridge import versions
-from .bridge.texture import find_texture
+from .bridge.texture import find_texture, texture_of_material
 from .changes import Watch, no_longer, once_drawn
 from .core.overlay import Look, Source, picture_of
 from .drawing import redraw_panels, redraw_views
@@ -43,7 +44,7 @@ class Batches:
     def faces(self):
         shader = versions.shader("FLAT_COLOR")
         return {
-            where: batch_for_shader(shader, "TRIS", {"pos": points, "color": self._picture.colours})
+            where: batch_for_shader(shader, "TRIS", {"pos": points, "color": self._picture.colours[where]})
             for where, points in self._picture.faces.items()
             if len(points)
         }
@@ -68,6 +69,8 @@ class Wanted:
     objects: tuple  # (name, mode, UV map) of each
     last: int  # which result the panel shows
     look: Look
+    materials: tuple  # names, by the number of their box, where each has its own texture
+    by_object: bool  # each object has
 
 
 class Cache:
@@ -135,14 +138,19 @@ def _remove():
     _cache.clear()
 
 
-def _look(context, obj):
-    options = to_options(context.scene.atlas_refine)
-    texture = find_texture(context, obj)
+def _textures(context, objs, materials, atlases):
+    """Of each box."""
+    if atlases == "MATERIAL":
+        return [texture_of_material(context, name) for name in materials]
+    return [find_texture(context, obj, atlases) for obj in (objs if atlases == "OBJECT" else objs[:1])]
+
+
+def _look(options, textures):
     margin = options.gap_px if options.gap == "PIXELS" else 0.0
     chosen = preferences.get()
     return Look(
         layers=tuple(layer for layer, on in shown.items() if on),
-        texture_size=options.texture_pixels(texture),
+        texture_sizes=tuple(options.texture_pixels(texture) for texture in textures),
         margin_px=margin,
         to_border=options.aspect != "FREE",
         keeps_stacks=options.stacks == "KEEP",
@@ -157,13 +165,15 @@ def _batches(context):
     found = [obj for obj in objects.objects_of(context) if not objects.why_not(obj)]
     if not found:
         return {}
-    uv_map = context.scene.atlas_refine.uv_map
-    names = tuple((obj.name, obj.mode, _map_of(obj, uv_map)) for obj in found)
+    options = to_options(context.scene.atlas_refine)
+    names = tuple((obj.name, obj.mode, map_of(obj, options.uv_map)) for obj in found)
+    materials = objects.material_names(found) if options.atlases == "MATERIAL" else ()
+    look = _look(options, _textures(context, found, materials, options.atlases))
     place = context.scene.name, context.view_layer.name
-    return _cache.of(Wanted(*place, names, id(tasks.last), _look(context, found[0])))
+    return _cache.of(Wanted(*place, names, id(tasks.last), look, materials, options.atlases == "OBJECT"))
 
 
-def _map_of(obj, wanted):
+def map_of(obj, wanted):
     try:
         return bridge.find_uv_map(obj.data, wanted)
     except bridge.MeshError:
@@ -176,7 +186,11 @@ def _build(wanted):
     if layer is None:
         return {}
     found = [(bpy.data.objects.get(name), uv_map) for name, _, uv_map in wanted.objects]
-    sources = {obj.name: _source(obj, uv_map, layer.depsgraph) for obj, uv_map in found if obj and obj.type == "MESH"}
+    sources = {
+        obj.name: _source(obj, uv_map, layer.depsgraph, wanted, number)
+        for number, (obj, uv_map) in enumerate(found)
+        if obj and obj.type == "MESH"
+    }
     sources = {name: source for name, source in sources.items() if source is not None}
     if not sources:
         return {}
@@ -184,15 +198,28 @@ def _build(wanted):
     return {name: Batches(picture) for name, picture in zip(sources, pictures, strict=True)}
 
 
-def _source(obj, uv_map, depsgraph):
+def _source(obj, uv_map, depsgraph, wanted, number):
     """None for a mesh that cannot be read, of which the operators say why."""
     try:
         with bridge.mesh_to_read(obj) as mesh:
             atlas, triangles = bridge.atlas_of(mesh, uv_map), bridge.triangles_of(mesh)
+            boxes = _boxes(obj, mesh, wanted, number)
     except bridge.MeshError:
         return None
-    shown = bridge.read_shown_positions(obj, depsgraph)
-    return Source(atlas, triangles, objects.scale_of(obj), tasks.new_seams(obj.name), shown)
+    scale, seams = objects.scale_of(obj), tasks.new_seams(obj.name)
+    shown, evaluated = bridge.read_shown_positions(obj, depsgraph), None
+    mesh = bridge.evaluated_mesh(obj, uv_map, depsgraph)
+    if mesh is not None:
+        own = _boxes(obj, mesh, wanted, number)
+        evaluated = Source(bridge.atlas_of(mesh, uv_map), bridge.triangles_of(mesh), scale, seams[:0], own)
+    return Source(atlas, triangles, scale, seams, boxes, shown, evaluated)
+
+
+def _boxes(obj, mesh, wanted, number):
+    """(F,) int."""
+    if wanted.materials:
+        return objects.materials_of(obj, mesh, {name: k for k, name in enumerate(wanted.materials)})
+    return np.full(len(mesh.polygons), wanted.by_object * number)
 
 
 def _draw_in_uv_editor():

@@ -6,7 +6,8 @@ from bpy.props import BoolProperty, PointerProperty
 
 from . import overlay, preferences
 from .bridge import parts as objects
-from .bridge.mesh import has_other_faces
+from .bridge.mesh import evaluated_mesh, has_other_faces
+from .overlay import map_of
 
 
 def _switch(layer, label, description):
@@ -38,9 +39,10 @@ def draw(layout, context):
     row = layout.row(align=True)
     for name in overlay.shown:
         row.prop(switches, name, toggle=True)
-    if any(overlay.shown.values()) and context.area.type == "VIEW_3D" and _lies_on_the_cage(context):
-        layout.label(text="Lies on the mesh", icon="INFO")
-        layout.label(text="without its modifiers", icon="BLANK1")
+    if context.area.type == "VIEW_3D":
+        for layer in _on_the_cage(context):
+            layout.label(text=f"{layer} on the mesh", icon="INFO")
+            layout.label(text="without its modifiers", icon="BLANK1")
     chosen = preferences.get()
     if switches.stretch and isinstance(chosen, bpy.types.AddonPreferences):  # else there is nothing to choose
         legend = layout.row(align=True)
@@ -48,11 +50,16 @@ def draw(layout, context):
         legend.prop(chosen, "heat_high", text=f"{chosen.heat_worst:g} x")
 
 
-def _lies_on_the_cage(context):
-    """An artist who sees a subdivided surface should know why the overlay does not follow it."""
+def _on_the_cage(context):
+    """What does not follow a subdivided surface, of which an artist who sees that should know."""
     depsgraph = context.view_layer.depsgraph
     found = () if depsgraph is None or context.mode != "OBJECT" else objects.objects_of(context)
-    return any(has_other_faces(obj, depsgraph) for obj in found if obj.visible_get())
+    found = [obj for obj in found if obj.visible_get() and obj.data.uv_layers and has_other_faces(obj, depsgraph)]
+    uv_map = context.scene.atlas_refine.uv_map
+    if overlay.shown["stretch"] and any(evaluated_mesh(obj, map_of(obj, uv_map), depsgraph) is None for obj in found):
+        yield "Stretch lies"
+    if found and (overlay.shown["seams"] or overlay.shown["gap"]):
+        yield "Lines lie"
 
 
 def register():

@@ -11,7 +11,8 @@ from .core.options import Options
 def pe_bound_property(**more):
     return FloatProperty(
         name="Texture Use",
-        description="Part of the texture that the charts are to cover: 0.8 is 80 %. Higher bends them more",
+        description="Part of the texture that the charts are to cover: 0.8 is 80 %. Higher bends them more. With a Density in pixels "
+        "per metre it is the most that they may cover",
         default=Options.pe_bound,
         soft_min=0.05,
         soft_max=0.99,
@@ -133,8 +134,12 @@ def _box_properties():
             "What shares one texture",
             [
                 ("ALL", "One Atlas", "All selected objects share one texture"),
-                ("OBJECT", "One for Each", "Each object has a texture of its own"),
-                ("MATERIAL", "By Material", "What has the same material shares a texture, across the selected objects"),
+                ("OBJECT", "One for Each", "Each object has a texture of its own, of the shape of its active material's image"),
+                (
+                    "MATERIAL",
+                    "By Material",
+                    "What has the same material shares a texture, across the selected objects; each has the shape of its own image",
+                ),
             ],
         ),
         "tiles": _choice(
@@ -181,8 +186,8 @@ def _chart_properties():
                 (
                     "VALUE",
                     "Pixels per Metre",
-                    "Equal, and so many pixels for a metre. With Aspect Free the charts take as much room as that needs; else they "
-                    "fill the texture, and the result says how large a texture has to be for it",
+                    "Equal, and so many pixels for a metre: the charts cover what that takes of the texture. Where it takes more than "
+                    "Texture Use they fill it up to there, and the result says how large a texture has to be",
                 ),
             ],
         ),

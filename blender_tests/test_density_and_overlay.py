@@ -27,6 +27,9 @@ class Density(unittest.TestCase):
     def refined(self, obj, **options):
         bpy.context.view_layer.update()
         self.assertEqual(bpy.ops.uv.atlas_refine(density="VALUE", **options), {"FINISHED"})
+        return self.found()
+
+    def found(self):
         (done,) = module("tasks").last
         ((_, density),) = done.densities
         return density
@@ -41,7 +44,25 @@ class Density(unittest.TestCase):
             self.assertAlmostEqual(found.after, 40.0, delta=1e-3)
             self.assertAlmostEqual(pixels_per_metre(obj, 1024, metres), 40.0, delta=1e-3)
 
-    def test_a_texture_is_filled_and_the_size_that_is_needed_told(self):
+    def test_a_texture_that_is_large_enough_has_the_value_and_the_margin(self):
+        for mode in ("OBJECT", "EDIT"):
+            fresh_scene()
+            obj = add_mesh()
+            obj.scale = (2.0,) * 3
+            bpy.ops.object.mode_set(mode=mode)
+            if mode == "EDIT":
+                bpy.ops.mesh.select_all(action="SELECT")
+            found = self.refined(obj, texel_density=20.0, texture_size=1024)
+            bpy.ops.object.mode_set(mode="OBJECT")
+            self.assertAlmostEqual(found.after, 20.0, delta=1e-3)
+            self.assertAlmostEqual(pixels_per_metre(obj, 1024), 20.0, delta=1e-3)
+            uvs = get_uvs(obj.data.uv_layers.active).astype(np.float64)
+            self.assertGreaterEqual(1024 * min(uvs.min(), (1 - uvs).min()), 4.0)
+            self.assertEqual(bpy.ops.uv.atlas_refine(density="VALUE", texel_density=20.0, texture_size=1024), {"FINISHED"})
+            (done,) = module("tasks").last
+            self.assertEqual(done.result.intervention, "unchanged")
+
+    def test_a_texture_that_is_too_small_is_filled_and_the_size_that_is_needed_told(self):
         obj = add_mesh()
         found = self.refined(obj, texel_density=1000.0, texture_size=1024)
         self.assertAlmostEqual(found.after, pixels_per_metre(obj, 1024), delta=1e-2)
@@ -53,22 +74,20 @@ class Density(unittest.TestCase):
         add_mesh()
         options = {"density": "VALUE", "texel_density": 1000.0}
         told = messages(bpy.ops.uv.atlas_refine, texture_size=1024, **options)
-        (done,) = module("tasks").last
-        size = done.density.size_to_take
-        self.assertIn(f"1000 px/m need a texture of {done.density.needed_px} px and this one has 1024: take {size}", told)
+        found = self.found()
+        size = found.size_to_take
+        self.assertIn(f"1000 px/m need a texture of {found.needed_px} px and this one has 1024: take {size}", told)
         fresh_scene()
         add_mesh()
         self.assertNotIn("px/m", messages(bpy.ops.uv.atlas_refine, texture_size=size, **options))
-        (done,) = module("tasks").last
-        self.assertGreaterEqual(done.density.after, 1000.0)
+        self.assertAlmostEqual(self.found().after, 1000.0, delta=0.1)
 
     def test_measure_tells_it_and_changes_nothing(self):
         obj = add_mesh()
         before = snapshot(obj)
         bpy.ops.uv.atlas_refine_measure()
-        (done,) = module("tasks").last
-        self.assertAlmostEqual(done.density.before, pixels_per_metre(obj, 2048), delta=1e-2)
-        self.assertIsNone(done.density.after)
+        self.assertAlmostEqual(self.found().before, pixels_per_metre(obj, 2048), delta=1e-2)
+        self.assertIsNone(self.found().after)
         self.assertEqual(changes(before, snapshot(obj)), [])
 
 
@@ -133,17 +152,42 @@ class Overlay(unittest.TestCase):
         key.value = 1.0
         self.assertAlmostEqual(float(self.shown(obj)[0, 2] - plain[0, 2]), 3.0, delta=1e-5)
 
-    def test_it_stays_on_the_mesh_where_modifiers_make_other_faces(self):
+    def test_where_modifiers_make_other_faces_stretch_is_theirs_and_lines_lie_on_the_mesh(self):
         obj = add_mesh()
-        settings = module("overlay_settings")
-        self.assertFalse(settings._lies_on_the_cage(bpy.context))
         modifier = obj.modifiers.new("Subdivision", "SUBSURF")
         modifier.levels = 1
         self.assertIsNone(self.shown(obj))
-        self.assertTrue(settings._lies_on_the_cage(bpy.context))
-        modifier.show_viewport = False
+        switches = bpy.context.window_manager.atlas_refine_overlay
+        switches.stretch = True
+        self.assertEqual(self.on_the_cage(), [])
+        source = self.source(obj)
+        self.assertEqual(len(source.evaluated.atlas.face_offsets) - 1, 4 * len(obj.data.polygons))
+        switches.gap = True
+        self.assertEqual(self.on_the_cage(), ["Lines lie"])
+        nodes = bpy.data.node_groups.new("Other", "GeometryNodeTree")
+        nodes.outputs.new("NodeSocketGeometry", "Geometry") if hasattr(nodes, "outputs") else nodes.interface.new_socket(
+            "Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry"
+        )
+        output, cube = nodes.nodes.new("NodeGroupOutput"), nodes.nodes.new("GeometryNodeMeshCube")
+        nodes.links.new(cube.outputs[0], output.inputs[0])
+        obj.modifiers.new("Other", "NODES").node_group = nodes
+        bpy.context.view_layer.update()
+        self.assertEqual(self.on_the_cage(), ["Stretch lies", "Lines lie"])
+        self.assertIsNone(self.source(obj).evaluated)
+        for one in obj.modifiers:
+            one.show_viewport = False
         self.assertIsNotNone(self.shown(obj))
-        self.assertFalse(settings._lies_on_the_cage(bpy.context))
+        self.assertEqual(self.on_the_cage(), [])
+        self.assertIsNone(self.source(obj).evaluated)
+        switches.stretch = switches.gap = False
+
+    def on_the_cage(self):
+        return list(module("overlay_settings")._on_the_cage(bpy.context))
+
+    def source(self, obj):
+        overlay = module("overlay")
+        wanted = overlay.Wanted("", "", (), 0, None, (), False)
+        return overlay._source(obj, "UVMap", bpy.context.view_layer.depsgraph, wanted, 0)
 
     def test_keep_best_has_nothing_to_do_while_nothing_runs(self):
         add_mesh()

@@ -16,6 +16,10 @@ from . import versions
 FACES_OF_A_STEP = 10000
 
 
+#: Of modifiers: more would make the window wait.
+MOST_FACES_DRAWN = 500_000
+
+
 class MeshError(Exception):
     """The object cannot be used; the message is one line and does not name the object."""
 
@@ -105,6 +109,14 @@ def read_shown_positions(obj, depsgraph):
     if not np.array_equal(integers(shown.loops, "vertex_index"), integers(mesh.loops, "vertex_index")):
         return None
     return _positions(shown)
+
+
+def evaluated_mesh(obj, uv_map, depsgraph):
+    """What modifiers make of the mesh where they make other faces that have the UV map, in object mode; else None."""
+    if depsgraph is None or obj.mode == "EDIT" or not has_other_faces(obj, depsgraph):
+        return None
+    mesh = obj.evaluated_get(depsgraph).data
+    return mesh if uv_map in mesh.uv_layers and 0 < len(mesh.polygons) <= MOST_FACES_DRAWN else None
 
 
 def has_other_faces(obj, depsgraph):

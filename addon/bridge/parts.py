@@ -61,7 +61,7 @@ def read_part(context, obj, options, material_numbers):
             hidden=selection.hidden_faces(mesh),
             selected=np.ones(len(mesh.polygons), dtype=bool) if selected is None else selected,
             pinned=selection.pinned_faces(mesh, uv_map),
-            materials=_materials(obj, mesh, material_numbers),
+            materials=materials_of(obj, mesh, material_numbers),
             scale=scale_of(obj),
             keep_shape=painted.face_flags(options.keep_shape),
             importance=painted.importance(options.importance),
@@ -75,8 +75,17 @@ def scale_of(obj):
     return float(abs(obj.matrix_world.determinant()) ** (1 / 3)) or 1.0
 
 
-def _materials(obj, mesh, numbers):
-    names = [slot.material.name if slot.material else "" for slot in obj.material_slots] or [""]
-    of_slots = np.array([numbers.setdefault(name, len(numbers)) for name in names])
+def material_names(objs):
+    """By the numbers that materials_of() gives them."""
+    return tuple(dict.fromkeys(name for obj in objs for name in _of_slots(obj)))
+
+
+def _of_slots(obj):
+    return [slot.material.name if slot.material else "" for slot in obj.material_slots] or [""]
+
+
+def materials_of(obj, mesh, numbers):
+    """(F,) int: the number of each face's material in `numbers`, by names, which grows."""
+    of_slots = np.array([numbers.setdefault(name, len(numbers)) for name in _of_slots(obj)])
     indices = bridge.integers(mesh.polygons, "material_index")
     return of_slots[np.clip(indices, 0, len(of_slots) - 1)]

@@ -22,14 +22,15 @@ def triangles_of_quads(atlas):
     return np.concatenate([first[:, None] + [0, 1, 2], first[:, None] + [0, 2, 3]]).astype(np.int32)
 
 
-def source(arrays, scale=1.0, seams=NONE, shown=None):
+def source(arrays, scale=1.0, seams=NONE, shown=None, boxes=None, evaluated=None):
     atlas = make_atlas(arrays)
-    return Source(atlas, triangles_of_quads(atlas), scale, seams, shown)
+    boxes = np.zeros(len(atlas.face_offsets) - 1, dtype=int) if boxes is None else boxes
+    return Source(atlas, triangles_of_quads(atlas), scale, seams, boxes, shown, evaluated)
 
 
 def look(layers=ALL, **more):
     given = {
-        "texture_size": (100, 100),
+        "texture_sizes": ((100, 100),),
         "margin_px": 4.0,
         "to_border": False,
         "keeps_stacks": True,
@@ -82,9 +83,9 @@ def test_colours_go_from_low_to_high_and_stay():
 def test_a_face_is_coloured_as_a_whole():
     (picture,) = picture_of(atlas_refine, [source(shapes.loose())], look())
     count = 2 * (48 + 36 + 18)
-    assert picture.colours.shape == (3 * count, 4)
+    assert picture.colours["uv"].shape == (3 * count, 4)
     assert {place.shape for place in picture.faces.values()} == {(3 * count, 3)}
-    halves = picture.colours.reshape(2, count // 2, 3, 4)
+    halves = picture.colours["uv"].reshape(2, count // 2, 3, 4)
     assert np.array_equal(halves[0], halves[1])
 
 
@@ -92,7 +93,7 @@ def test_what_moves_the_vertices_moves_the_drawing_and_not_the_colours():
     plain = source(shapes.loose())
     bent = source(shapes.loose(), shown=plain.atlas.positions + np.float32([0.0, 0.0, 1.0]))
     (before,), (after,) = (picture_of(atlas_refine, [one], look()) for one in (plain, bent))
-    assert np.array_equal(before.colours, after.colours)
+    assert all(np.array_equal(before.colours[where], after.colours[where]) for where in ("uv", "space"))
     assert np.array_equal(before.faces["uv"], after.faces["uv"])
     assert np.array_equal(before.faces["space"] + np.float32([0.0, 0.0, 1.0]), after.faces["space"])
 
@@ -102,8 +103,8 @@ def test_several_objects_are_stretched_as_one():
     one, two = (source(shapes.join(shapes.grid(2, 2)), scale) for scale in (1.0, 2.0))
     alike = picture_of(atlas_refine, [one, one], look(("stretch",)))
     unlike = picture_of(atlas_refine, [one, two], look(("stretch",)))
-    assert alike[0].colours[0, 0] == 0.0
-    assert unlike[0].colours[0, 0] > 0.2
+    assert alike[0].colours["uv"][0, 0] == 0.0
+    assert unlike[0].colours["uv"][0, 0] > 0.2
 
 
 @pytest.mark.parametrize(("distance_px", "near"), [(4.1, False), (4.0, False), (3.9, True), (0.5, True)])
@@ -117,6 +118,33 @@ def test_charts_of_two_objects_are_looked_at_as_well():
     left, right = source(squares((0.1, 0.1))), source(squares((0.32, 0.1)))
     assert near_share(left, right) == 8 / 16
     assert near_share(left, right, margin_px=0.0) == 0
+
+
+def test_charts_in_textures_of_their_own_are_no_neighbours():
+    both = squares((0.1, 0.1), (0.32, 0.1))
+    assert near_share(source(both)) == 8 / 16
+    assert near_share(source(both, boxes=np.repeat([0, 1], 4)), texture_sizes=((100, 100), (100, 100))) == 0
+    near_border = source(both, boxes=np.repeat([0, 1], 4))
+    share = near_share(near_border, texture_sizes=((100, 100), (100, 30)), to_border=True)
+    assert share == 4 / 16  # 0.1 is 3 of 30 pixels
+
+
+def test_stretch_is_that_of_each_texture():
+    half = shapes.grid(4, 4, scale=0.1), shapes.grid(4, 4, scale=0.2, origin=(0.5, 0.0))
+    arrays = shapes.join(*half)
+    (one,) = picture_of(atlas_refine, [source(arrays)], look(("stretch",)))
+    boxes = np.repeat([0, 1], 16)
+    (two,) = picture_of(atlas_refine, [source(arrays, boxes=boxes)], look(("stretch",), texture_sizes=((64, 64), (32, 32))))
+    assert one.colours["uv"][:, 0].max() > 0.3
+    assert two.colours["uv"][:, 0].max() == pytest.approx(0, abs=1e-5)
+
+
+def test_where_modifiers_make_other_faces_those_are_drawn_in_space():
+    seen = source(shapes.join(shapes.grid(8, 8, scale=0.5)))
+    cage = source(shapes.join(shapes.grid(4, 4)), evaluated=seen)
+    (picture,) = picture_of(atlas_refine, [cage], look(("stretch",)))
+    assert {where: len(points) for where, points in picture.faces.items()} == {"uv": 3 * 2 * 16, "space": 3 * 2 * 64}
+    assert {where: len(colours) for where, colours in picture.colours.items()} == {"uv": 3 * 2 * 16, "space": 3 * 2 * 64}
 
 
 def test_charts_that_overlap_are_near_and_stacks_are_not():
