@@ -187,7 +187,7 @@ def test_keep_best_by_the_key_as_in_the_manual():
     bpy.ops.ed.undo_push(message="Made a mesh")
     tasks().last = None
     yield from start(obj, pe_bound=0.95)
-    yield lambda: running() and tasks().running.progress[0].pe > 0.4
+    yield lambda: running() and tasks().running.is_solving and tasks().running.atlases[0].job.progress.pe > 0.4
     picture("manual-running")
     yield from key("RET")
     yield from until(lambda: not running(), "Enter does not end it")
@@ -206,7 +206,7 @@ def test_keep_best_by_the_button():
     obj = slow_mesh()
     tasks().last = None
     yield from start(obj, pe_bound=0.95)
-    yield lambda: running() and tasks().running.progress[0].pe > 0.4
+    yield lambda: running() and tasks().running.is_solving and tasks().running.atlases[0].job.progress.pe > 0.4
     yield from click(KEEP_BEST)
     steps = 0
     while running():
