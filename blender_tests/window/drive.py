@@ -100,7 +100,7 @@ def test_the_window_lives_while_it_runs_and_esc_stops_it():
 def test_a_mesh_that_changed_meanwhile_is_left_alone():
     obj = add_mesh(shapes.arcs(4, 60), name="Changed")
     yield from start(obj, pe_bound=0.9)
-    yield running
+    yield lambda: running() and tasks().running.is_solving  # it has been read
     obj.data.vertices[0].co.x += 1.0
     changed = uvs(obj)
     yield lambda: not running()
