@@ -46,6 +46,20 @@ TEST(CoarseToFine, EndsAtTheOptimumOfTheDirectSqueeze) {
   expect_the_same_optimum(charts_of(shapes::mesh(shapes::star(), kFine)), options_at(0.6));
 }
 
+TEST(CoarseToFine, OfTwoStartsTheBetterOneIsTaken) {
+  const std::vector<Chart> good = charts_of(shapes::mesh(shapes::u_shape(), kFine));
+  std::vector<Chart> bad = good;  // on its side and drawn out, which has to be undone
+  for (Vec2& uv : bad[0].uvs) uv = Vec2(1.7 * uv.y(), -uv.x());
+  Monitor monitor;
+  const Objective objective = make_objective(good);
+  const Squeezed alone = squeeze({{good}}, objective, options_at(0.8), monitor);
+  const Squeezed both = squeeze({{bad}, {good}}, objective, options_at(0.8), monitor);
+  ASSERT_TRUE(both.outcome.holds());
+  EXPECT_LE(both.outcome.energy, alone.outcome.energy + 1e-4);
+  EXPECT_GT(both.iterations, alone.iterations);
+  EXPECT_LT(both.outcome.energy, squeeze({{bad}}, objective, options_at(0.8), monitor).outcome.energy + 1e-4);
+}
+
 TEST(CoarseToFine, TakesHolesAndSeveralCharts) {
   expect_the_same_optimum(charts_of(shapes::mesh(shapes::ring(), kFine)), options_at(0.65));
   expect_the_same_optimum(

@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <optional>
 #include <ostream>
 
 #include "charts.h"
@@ -202,6 +203,29 @@ TEST(ReduceModel, TheStartComesBackInItsOwnUnits) {
   EXPECT_NEAR(tight_pe(model, model.start), testing::packing_efficiency(charts), 1e-12);
   EXPECT_NEAR(dirichlet_energy(model.objective, model.triangles, model.start.x), testing::energy_as_is(charts), 1e-12);
   EXPECT_NEAR(surface_distortion(charts, model, model.start.x), dirichlet_sums(charts).best_energy(), 1e-12);
+}
+
+TEST(ReduceModel, NeighboursAlongTheBoundaryAreContactsOnlyWhereAStepBringsThemTogether) {
+  // Two thin arms; near the inner corner borders of both face each other.
+  const shapes::Polygon angle{{{0, 0}, {1, 0}, {1, 0.03}, {0.03, 0.03}, {0.03, 1}, {0, 1}}, {}};
+  const std::vector<Chart> charts = charts_of(shapes::mesh(angle, 0.003, 0));
+  const ReduceModel model = make_model({.charts = charts, .pe_target = 0.9});
+  const Boundary& b = model.boundary;
+  const auto& x = model.start.x;
+  const double reach = model.gap.length(model.start.box) + model.range;
+  std::optional<PointEdge> facing;
+  for (const PointEdge& pair : near_pairs(b, x, {}, reach)) {
+    const Closest nearest = closest_on_segment(x[b.vertex[pair.point]], x[b.vertex[pair.edge]], x[b.vertex[b.next[pair.edge]]]);
+    if (nearest.distance < reach && faces_outside(b, x, pair, nearest)) facing = pair;
+  }
+  ASSERT_TRUE(facing);
+  EXPECT_TRUE(find_contacts(model, model.start).empty());
+  std::vector<Vec2> step(x.size(), Vec2::Zero());
+  step[b.vertex[facing->point]] = x[b.vertex[facing->edge]] - x[b.vertex[facing->point]];
+  bool found = false;
+  for (const Contact& contact : find_contacts(model, model.start, step))
+    found = found || (contact.pair.point == facing->point && contact.pair.edge == facing->edge);
+  EXPECT_TRUE(found);
 }
 
 TEST(ReduceModel, ForcesAreTheBarriersSlope) {

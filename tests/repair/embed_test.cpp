@@ -95,7 +95,7 @@ Chart grid(int columns, int rows, const Point& point) {
 }
 
 TEST(Embed, ManyTrianglesGoDownOnCoarseOnes) {
-  const Chart waves = grid(125, 125, [](int i, int j) { return Vec3(i, j, 2 * std::sin(0.1 * i)); });
+  const Chart waves = grid(45, 45, [](int i, int j) { return Vec3(i, j, 2 * std::sin(0.1 * i)); });
   const PhaseScope scope(Phase::Other);
   take_account();
   EXPECT_LT(embedded_energy(waves), 1.001);
@@ -104,7 +104,7 @@ TEST(Embed, ManyTrianglesGoDownOnCoarseOnes) {
 
 TEST(Embed, OfManyTrianglesAllPartsHaveTheirSizesFromTheStart) {
   // Tutte's disk shrinks both ends of such a tube.
-  const Chart tube = grid(60, 520, [](int i, int j) { return on_tube(i, j, 60, 9.6 + 1e-3 * i); });
+  const Chart tube = grid(30, 260, [](int i, int j) { return on_tube(i, j, 30, 4.8 + 1e-3 * i); });
   Monitor monitor;
   const auto start = spread_out(tube, 2, monitor);
   ASSERT_TRUE(start);

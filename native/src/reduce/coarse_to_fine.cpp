@@ -46,12 +46,20 @@ double gap_within(const std::vector<Chart>& charts, double most) {
   return std::min(most, gap_within(charts, dirichlet_sums(charts).best_scale(), most));
 }
 
-/// With thousands of charts that takes as long as all the rest, for 1e-4 of E_d.
-SqueezeOptions patient(SqueezeOptions options, std::size_t charts) {
-  if (charts >= kThousands) return options;
-  options.least_change = kLeastChange;
-  options.negligible = kNegligible;
-  return options;
+/// The best result goes on on the coarse charts, with patience: which one is best is clear before.
+void slide(const CoarseAtlas& coarse, const PlacedCharts& start, const SqueezeOptions& options, Squeezed& out, Monitor& monitor) {
+  if (start.charts.size() >= kThousands) return;  // that takes as long as all the rest, for 1e-4 of E_d
+  const PlacedCharts end = with_uvs_of(start, out.outcome);
+  ReduceProblem problem = problem_at(end, coarse.objective, out.gap, options);
+  problem.warm = out.outcome.end;
+  problem.least_change = kLeastChange;
+  problem.negligible = kNegligible;
+  ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
+    monitor.report(0.96, progress.pe);
+    return !monitor.finishing();
+  });
+  out.iterations += result.iterations;
+  if (result.holds() && result.energy <= out.outcome.energy) out.outcome = std::move(result);
 }
 
 /// The charts from where the coarse ones have ended; nothing where they cannot go on from there.
@@ -62,8 +70,9 @@ std::optional<Squeezed> squeeze_finely(const CoarseAtlas& coarse, const std::vec
   ReduceResult result = squeeze_on(*start, objective, out.gap, warm_start(coarse, charts, out.outcome.end), options, monitor);
   const bool stopped = result.status == ReduceStatus::Stopped;  // with no time for a direct squeeze
   if (!result.holds() && !stopped) return std::nullopt;
-  // Borders that turned to face each other on the way may have come nearer than those of a direct squeeze do.
-  constexpr double kNearer = 0.8;
+  // Borders that turned to face each other on the way may have come nearer than those of a direct squeeze do, which has lost
+  // nearly as much itself.
+  constexpr double kNearer = 0.75;
   const PlacedCharts end = with_uvs_of(*start, result);
   const Box box = uv_box(end.charts);
   const double gap = out.gap.length(end.has_frame() ? end.frame : box.size()) / box.diagonal();
@@ -79,8 +88,10 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   const std::vector<Chart>& charts = starts.front().charts;
   const auto coarse = coarsen(charts, objective, options.freedom);
   if (!coarse) return std::nullopt;
-  Squeezed out = squeeze_directly(restricted(*coarse, starts), coarse->objective, patient(options, charts.size()), monitor);
+  const std::vector<PlacedCharts> rough = restricted(*coarse, starts);
+  Squeezed out = squeeze_directly(rough, coarse->objective, options, monitor);
   if (!out.outcome.holds() && !monitor.finishing()) return std::nullopt;
+  if (out.outcome.holds()) slide(*coarse, rough.front(), options, out, monitor);
   return squeeze_finely(*coarse, charts, objective, std::move(out), options, monitor);
 }
 

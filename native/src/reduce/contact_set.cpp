@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "solve/contact_barrier.h"
 #include "support/profile.h"
@@ -89,6 +91,27 @@ double floor_between(const ReduceModel& model, const PointEdge& pair) {
   return floor;
 }
 
+/// A contact between two borders of one piece.
+Contact within_piece(const ReduceModel& model, const PointEdge& pair) {
+  const double arc = model.boundary.arc_between(pair.point, pair.edge);
+  return {pair, arc < model.far_arc ? 0 : floor_between(model, pair), std::min(model.range, kRangePerArc * arc)};
+}
+
+/// How much nearer to each other a step may bring the two.
+double longest_approach(const Boundary& boundary, const PointEdge& pair, const std::vector<Vec2>& step) {
+  if (step.empty()) return 0;
+  const auto [point, start, end] = vertices_of(boundary, pair);
+  return std::sqrt(std::max((step[point] - step[start]).squaredNorm(), (step[point] - step[end]).squaredNorm()));
+}
+
+/// The distance from which on a contact within a piece neither is felt nor may lower a floor. Neighbours along the boundary are
+/// felt at a fraction of what borders that face each other are, and are most of all pairs.
+double farthest_felt(const ReduceModel& model, const Contact& contact, double unit, bool at_rest) {
+  if (contact.floor_fraction == 0) return contact.range;
+  if (!at_rest) return std::numeric_limits<double>::infinity();  // the unit changes with the box
+  return std::max(contact.floor_fraction * unit + contact.range, model.gap.value * unit / kOfDistance);
+}
+
 /// Slack of a contact beyond its floor, in its range.
 double slack(const ReduceModel& model, const ReduceState& state, const Contact& contact, double unit) {
   const Closest nearest = closest(model.boundary, state.x, contact.pair);
@@ -114,21 +137,21 @@ std::vector<NearBorder> measure_near_borders(const ReduceModel& model) {
 
 ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step) {
   const PhaseScope scope(Phase::Contacts);
-  const Boundary& boundary = model.boundary;
   const double unit = gap_unit(model, state.box);
   ContactSet found;
-  for (const PointEdge& pair : near_pairs(boundary, state.x, step, model.gap.value * unit + model.range)) {
+  for (const PointEdge& pair : near_pairs(model.boundary, state.x, step, model.gap.value * unit + model.range)) {
     if (moves_as_one(model, pair)) continue;
-    Contact contact{pair, model.gap.value, model.range};
-    if (of_one_piece(boundary, pair)) {
-      const Closest nearest = closest(boundary, state.x, pair);
-      if (!faces_outside(boundary, state.x, pair, nearest)) continue;
-      const double arc = boundary.arc_between(pair.point, pair.edge);
-      contact.floor_fraction = arc < model.far_arc ? 0 : floor_between(model, pair);
-      contact.range = std::min(model.range, kRangePerArc * arc);
-      // Borders that have turned to face each other below the floor need not part again.
-      if (nearest.distance <= contact.floor_fraction * unit) contact.floor_fraction = kOfDistance * nearest.distance / unit;
+    if (!of_one_piece(model.boundary, pair)) {
+      found.push_back({pair, model.gap.value, model.range});
+      continue;
     }
+    const Closest nearest = closest(model.boundary, state.x, pair);
+    Contact contact = within_piece(model, pair);
+    const double least = nearest.distance - longest_approach(model.boundary, pair, step);
+    if (least >= farthest_felt(model, contact, unit, step.empty())) continue;
+    if (!faces_outside(model.boundary, state.x, pair, nearest)) continue;
+    // Borders that have turned to face each other below the floor need not part again.
+    if (nearest.distance <= contact.floor_fraction * unit) contact.floor_fraction = kOfDistance * nearest.distance / unit;
     found.push_back(contact);
   }
   return found;
@@ -180,10 +203,16 @@ std::vector<std::pair<int, int>> coupled_nodes(const ReduceModel& model, const R
     add_nodes(point, end);
   };
   for (const Contact& contact : contacts) add(contact.pair);
+  const double unit = gap_unit(model, state.box);
   const double reach = kPatternReach * (model.gap.length(state.box) + model.range);
   for (const PointEdge& pair : near_pairs(boundary, state.x, {}, reach)) {
     if (moves_as_one(model, pair)) continue;
-    if (!of_one_piece(boundary, pair) || faces_outside(boundary, state.x, pair, closest(boundary, state.x, pair))) add(pair);
+    if (of_one_piece(boundary, pair)) {
+      const Closest nearest = closest(boundary, state.x, pair);
+      const double felt = kPatternReach * farthest_felt(model, within_piece(model, pair), unit, true);
+      if (nearest.distance >= felt || !faces_outside(boundary, state.x, pair, nearest)) continue;
+    }
+    add(pair);
   }
   if (model.has_box) {
     for (int v : boundary.vertex) {

@@ -29,9 +29,13 @@ constexpr double kGentle = 10;         // E_d of a start that needs no evening o
 constexpr double kCollapsed = 100;     // E_d above which an embedding is no use
 constexpr double kLeastWeight = 1e-3;  // of a triangle, as a fraction of the mean one
 
-/// Fewer are soon down by themselves, and the way over coarse charts may lead to another optimum.
+// The way down ends where E_d - 1 changes by less than this part of it: a squeeze goes on from there,
+constexpr double kSettled = 2e-3;
+constexpr double kRoughlySettled = 0.05;  // and a start need only have its parts at their sizes.
+
+/// Fewer are soon down by themselves.
 bool has_many(const Chart& chart) {
-  constexpr std::size_t kMany = 30000;
+  constexpr std::size_t kMany = 3000;
   return chart.triangles.size() >= kMany;
 }
 
@@ -144,13 +148,14 @@ Objective shapes_of_uvs(const Chart& chart, const std::vector<Chart>& pieces) {
   return make_objective(pieces, {.reference_uvs = {chart.uvs}, .reference_scale = {sums_of_good(chart).best_scale()}});
 }
 
-ReduceResult downhill(const Chart& chart, const Objective& objective, int threads, Monitor& monitor) {
+ReduceResult downhill(const Chart& chart, const Objective& objective, double settled, int threads, Monitor& monitor) {
   // Shapes may be kept all but exactly: no part of a distortion that is nothing is worth a wait.
   constexpr double kNegligible = 1e-6;
   const std::vector<Chart> charts = {chart};
   const ReduceProblem problem{.charts = charts,
                               .objective = &objective,
                               .gap = {.value = kGapForLargerBox * Gap{}.value},
+                              .least_change = settled,
                               .negligible = kNegligible,
                               .most_energy = kCollapsed,
                               .threads = threads};
@@ -161,19 +166,21 @@ ReduceResult downhill(const Chart& chart, const Objective& objective, int thread
   });
 }
 
-/// The way down on coarse charts, as far as they can follow. Coarse triangles of a distorted start bend it roughly only; those of
-/// what comes of it are better shaped.
+/// The way down on coarse charts, as far as they can follow. Coarse triangles of a distorted start bend it roughly only; where
+/// they have bent it much, those of what comes of it are better shaped.
 Chart coarsely_downhill(Chart chart, const Objective& objective, int threads, Monitor& monitor) {
-  constexpr int kRounds = 2;
-  for (int round = 0; round < kRounds; ++round) {
+  constexpr int kMostRounds = 2;
+  constexpr double kBentLittle = 0.5;  // of E_d - 1: where more than this is left
+  for (int round = 0; round < kMostRounds; ++round) {
     const auto coarse = coarsen({chart}, objective, {});
     if (!coarse) return chart;
     const PlacedCharts rough = restricted(*coarse, {.charts = {chart}});
-    const ReduceResult end = downhill(rough.charts.front(), coarse->objective, threads, monitor);
+    const ReduceResult end = downhill(rough.charts.front(), coarse->objective, kSettled, threads, monitor);
     if (!(end.energy <= kCollapsed)) return chart;
     auto uvs = prolonged(*coarse, {chart}, objective, end.uvs);
     if (!uvs) return chart;
     chart.uvs = std::move(uvs->front());
+    if (end.energy - 1 > kBentLittle * (end.first_energy - 1)) break;
   }
   chart.uvs = relax_crushed(chart, {objective.inverse_edges, objective.weight}, objective.unit);
   return chart;
@@ -187,7 +194,7 @@ std::optional<Chart> from_decimated(const Chart& chart, int threads, Monitor& mo
   const auto disk = on_disk(coarse->mesh, threads, monitor);
   if (!disk) return std::nullopt;
   const Chart start = validly_stretched(*disk);
-  const ReduceResult end = downhill(start, make_objective({start}), threads, monitor);
+  const ReduceResult end = downhill(start, make_objective({start}), kRoughlySettled, threads, monitor);
   if (!(end.energy <= kCollapsed)) return std::nullopt;
   auto uvs = put_back(*coarse, end.uvs[0]);
   if (!uvs) return std::nullopt;
@@ -210,8 +217,8 @@ std::optional<Chart> spread_out(const Chart& chart, int threads, Monitor& monito
 
 std::optional<Chart> embed(const Chart& chart, const Chart& start, Shapes shapes, int threads, Monitor& monitor) {
   const Objective objective = shapes == Shapes::OfUvs ? shapes_of_uvs(chart, {start}) : make_objective({start});
-  ReduceResult result =
-      downhill(has_many(chart) ? coarsely_downhill(start, objective, threads, monitor) : start, objective, threads, monitor);
+  const Chart from = has_many(chart) ? coarsely_downhill(start, objective, threads, monitor) : start;
+  ReduceResult result = downhill(from, objective, kSettled, threads, monitor);
   if (!(result.energy <= kCollapsed)) return std::nullopt;
   // The start may have had polygons that were not convex and had no guards; those that are in the end are guarded from here on.
   Chart embedded = chart;
