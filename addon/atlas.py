@@ -27,7 +27,7 @@ class Done:
     face_count: int
     is_free: bool
     reached_beyond: bool  # charts lay beside the texture
-    max_distortion: float  # that was asked for; 0: none
+    limits: tuple  # largest distortion and stretch that were asked for; 0: none
     result: object = None
     measures: object = None
     densities: tuple = ()  # (name of the texture or tile, core.density.Density)
@@ -167,7 +167,7 @@ class Atlas:
         request = self.request
         is_free = not request.arguments["in_texture"]
         beyond = request.reaches_beyond and not is_free
-        fixed = (title, request.face_count, is_free, beyond, self.options.max_distortion)
+        fixed = (title, request.face_count, is_free, beyond, (self.options.max_distortion, self.options.max_stretch))
         return Done(*fixed, notes=tuple(self.notes), prints=prints, **found)
 
     def _densities(self, result=None):

@@ -21,7 +21,9 @@ def draw_main(layout, holder, context):
     if holder.aspect == "TEXTURE":
         _draw_textures(layout, textures)
     layout.prop(holder, "seams")
-    layout.prop(holder, "max_distortion")
+    limits = layout.column(align=True)
+    limits.prop(holder, "max_distortion")
+    limits.prop(holder, "max_stretch")
     if holder.seams == "NEEDED":
         _draw_most_new_seams(layout, holder)
     if holder.seams != "NONE":
@@ -102,7 +104,7 @@ def draw_advanced(layout, holder):
     layout.prop(holder, "best_effort")
     if holder.seams == "NEEDED":
         layout.prop(holder, "effort")
-        if holder.max_distortion == 0:
+        if holder.max_distortion == 0 and holder.max_stretch == 0:
             layout.prop(holder, "seam_cost")
     if holder.seams == "RECTANGLES":
         layout.prop(holder, "sigma")

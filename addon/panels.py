@@ -140,7 +140,7 @@ class _Result:
     def _draw_result(self, layout, context, done):
         before, after = done.result.before, done.result.after
         icon = "CHECKMARK" if done.result.bound_met else "ERROR"
-        _tell(layout, context, f"{done.title}: {what_was_done(done.result, done.max_distortion)}", icon)
+        _tell(layout, context, f"{done.title}: {what_was_done(done.result, *done.limits)}", icon)
         now = percent(after.pe_fixed_aspect, down=True)
         lines = [f"{use(before, done.is_free, done.reached_beyond)} -> {now}"]
         for group in done.result.groups:

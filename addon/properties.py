@@ -248,7 +248,7 @@ def _cut_properties():
         ),
         "seam_cost": FloatProperty(
             name="Seam Cost",
-            description="For Seams As Needed without a Largest Distortion: how much distortion a cut has to spare. At 0.1 one that "
+            description="For Seams As Needed without a Largest Distortion or Stretch: how much distortion a cut has to spare. At 0.1 one that "
             "makes the borders 10 % longer has to spare 0.01. Less makes more cuts",
             default=Options.seam_cost,
             soft_min=0.0,
@@ -290,6 +290,15 @@ def _advanced_properties():
             soft_min=0.0,
             soft_max=4.0,
             precision=3,
+        ),
+        "max_stretch": FloatProperty(
+            name="Largest Stretch",
+            description="The same for the stretch of 99 % of the surface, as Details has it: at 1.3 lengths there are at most "
+            "1.3 times as long or as short in the texture as in the mean. 0: no limit",
+            default=Options.max_stretch,
+            soft_min=0.0,
+            soft_max=4.0,
+            precision=2,
         ),
         **_cut_properties(),
         "open_closed": _flag(

@@ -43,6 +43,28 @@ TEST(Limits, TheLargestDistortionCountsOnTheSurfaceWhateverTheDensity) {
   }
 }
 
+TEST(Limits, TheLargestStretchIsThatOfNinetyNinePerCentOfTheSurface) {
+  const Atlas atlas = shapes::mesh(shapes::comb(), 0.08);
+  const double free = refine(atlas, {}).after.stretch_99;
+  const RefineResult within = refine_soundly(atlas, {.max_stretch = free + 0.01});
+  EXPECT_GT(within.after.stretch_max, free + 0.01);  // the worst triangle does not count
+  RefineOptions options{.max_stretch = 1 + 0.5 * (free - 1)};
+  const RefineError error = testing::refusal(atlas, options);
+  EXPECT_EQ(error.code(), ErrorCode::BoundNotReached);
+  options.best_effort = true;
+  const RefineResult best = refine(atlas, options);
+  EXPECT_FALSE(best.bound_met);
+  EXPECT_LE(best.after.stretch_99, *options.max_stretch * (1 + 1e-5));
+  EXPECT_GT(best.after.pe, best.before.pe);
+  for (const std::string& named : {number_text("%.4f", best.after.pe), number_text("%.4f", best.after.stretch_99)})
+    EXPECT_NE(std::string(error.what()).find(named), std::string::npos) << error.what() << " does not name " << named;
+}
+
+TEST(Limits, AnAtlasAtTheBoundIsNotLeftWithMoreStretchThanIsAllowed) {
+  EXPECT_EQ(refine(dome(), {.pe_bound = 0.3}).intervention, Intervention::Unchanged);
+  EXPECT_EQ(testing::refusal(dome(), {.pe_bound = 0.3, .max_stretch = 1.001}).code(), ErrorCode::BoundNotReached);
+}
+
 TEST(Limits, ChartsThatJamAreNotCrushedForTheBestPe) {
   RefineOptions options{.pe_bound = 0.96, .gap = Gap{0.02}};
   const Atlas atlas = shapes::squares(9);

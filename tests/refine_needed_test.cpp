@@ -69,6 +69,22 @@ TEST(Needed, AboveTheLimitAFewCutsKeepIt) {
   }
 }
 
+TEST(Needed, AboveTheLargestStretchAFewCutsKeepIt) {
+  for (const Atlas& atlas : {flat_s(), flat_star()}) {
+    const double whole = refine(atlas, {}).after.stretch_99;
+    RefineOptions options = needed();
+    options.max_stretch = 1 + 0.6 * (whole - 1);
+    const RefineResult result = refine_soundly(atlas, options);
+    EXPECT_LE(result.after.stretch_99, *options.max_stretch * (1 + 1e-5));
+    EXPECT_GT(result.cuts->cuts, 0);
+    options.max_boundary_growth = 0.01;
+    const std::string message = refusal(atlas, options).what();
+    EXPECT_NE(message.find("no atlas within a stretch of"), std::string::npos) << message;
+    options.best_effort = true;
+    EXPECT_FALSE(refine(atlas, options).bound_met);
+  }
+}
+
 TEST(Needed, ALowerLimitNeedsMoreBoundary) {
   const Atlas atlas = flat_star();
   const double loss = without_cuts(atlas) - 1;

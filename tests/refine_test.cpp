@@ -348,6 +348,7 @@ TEST(Refine, OptionsOutOfRangeAreRefused) {
   for (const double aspect : {-1.0, 0.0099, 101.0, HUGE_VAL, nan}) wrong.push_back({.box_aspect = aspect});
   for (const double gap : {-0.1, 0.2, nan}) wrong.push_back({.gap = Gap{gap}});
   for (const double limit : {0.9, HUGE_VAL, nan}) wrong.push_back({.max_distortion = limit});
+  for (const double limit : {0.9, HUGE_VAL, nan}) wrong.push_back({.max_stretch = limit});
   for (const int threads : {-1, 5000}) wrong.push_back({.threads = threads});
   for (const RefineOptions& options : wrong) {
     EXPECT_EQ(testing::refusal(atlas, options).code(), ErrorCode::BadOption);

@@ -39,6 +39,7 @@ class Options:
     prefer_seam: str = ""
     relax: bool = False
     max_distortion: float = 0.0  # 0: no limit, and with NEEDED cuts where they pay
+    max_stretch: float = 0.0  # the same
     limit_new_seams: bool = False  # of NEEDED, like the three below
     most_new_seams: float = 20.0  # per cent of the borders of all charts
     seam_cost: float = 0.1
@@ -74,6 +75,8 @@ class Options:
         }
         if self.max_distortion != 0:  # the engine refuses what is below 1
             arguments["max_distortion"] = self.max_distortion
+        if self.max_stretch != 0:
+            arguments["max_stretch"] = self.max_stretch
         if self.seams == "RECTANGLES":
             arguments.update(sigma=self.sigma, candidates=self.candidates)
         if self.seams == "NEEDED":
@@ -100,7 +103,7 @@ class Options:
 
     def for_trade_off(self):
         """The limits choose one outcome; for all there are they do not count."""
-        return replace(self, seams="NEEDED", max_distortion=0.0, limit_new_seams=False)
+        return replace(self, seams="NEEDED", max_distortion=0.0, max_stretch=0.0, limit_new_seams=False)
 
     def _arguments_of_cuts(self):
         arguments = {"seam_cost": self.seam_cost, "effort": self.effort.lower()}

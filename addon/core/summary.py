@@ -66,8 +66,8 @@ def percent(fraction, down=False):
     return f"{int(value + 1e-6) if down else round(value)} %"
 
 
-def what_was_done(result, max_distortion=0.0):
-    """A word for the panel's first line; `max_distortion`: that was asked for, 0 where none was."""
+def what_was_done(result, max_distortion=0.0, max_stretch=0.0):
+    """A word for the panel's first line; the limits are those that were asked for, 0 where none was."""
     if result.ended == "stopped" and result.intervention == "unchanged":
         return "Stopped before anything better was found: nothing changed"
     return {
@@ -75,16 +75,19 @@ def what_was_done(result, max_distortion=0.0):
         "moved": "Charts moved, shapes kept",
         "squeezed": "Charts moved and bent",
         "cut": "Charts cut, moved and bent",
-    }[result.intervention] + _what_was_missed(result, max_distortion)
+    }[result.intervention] + _what_was_missed(result, max_distortion, max_stretch)
 
 
-def _what_was_missed(result, max_distortion):
+def _what_was_missed(result, max_distortion, max_stretch):
     if result.bound_met:
         return ""
     if result.ended == "stopped":
         return "; stopped early"
-    is_above = 0 < max_distortion < result.after.distortion
-    return "; the distortion stays above its limit" if is_above else "; the wanted use was not reached"
+    if 0 < max_distortion < result.after.distortion:
+        return "; the distortion stays above its limit"
+    if 0 < max_stretch < result.after.stretch_99:
+        return "; the stretch stays above its limit"
+    return "; the wanted use was not reached"
 
 
 def figures(result, face_count):

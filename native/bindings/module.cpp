@@ -21,7 +21,8 @@ namespace atlas_refine::python {
 namespace {
 
 const std::string kRefineKeywords =
-    "pe_bound seams box_aspect in_texture gap gap_unit max_distortion max_boundary_growth seam_cost effort trade_off point relax "
+    "pe_bound seams box_aspect in_texture gap gap_unit max_distortion max_stretch max_boundary_growth seam_cost effort trade_off "
+    "point relax "
     "best_effort density uv_density stored sigma candidates omega "
     "until_input "
     "reference importance seed threads name cut open_closed stacks collapsed rotate align_axes triangulate groups group_origins "
@@ -38,8 +39,8 @@ corner_uvs       (C, 2) float64, UV units; equal values at both ends of a shared
 constexpr const char* kRefineOptionsDoc = R"(
 pe_bound         packing efficiency to reach, in (0, 1); default 0.8
 seams            "none" (default): charts bend, no seam is added; "needed": they bend, and are cut where their distortion is
-                 above max_distortion or, without that, where a cut saves what it costs (seam_cost); "rectangles": charts
-                 become axis-aligned and are cut into rectangles (Liu et al. 2019). Where faces are divided result.cut is the
+                 above max_distortion or max_stretch or, without these, where a cut saves what it costs (seam_cost);
+                 "rectangles": charts become axis-aligned and are cut into rectangles (Liu et al. 2019). Where faces are divided result.cut is the
                  mesh that corner_uvs belong to
 box_aspect       width / height of the texture that [0, 1]^2 stands for, in [0.01, 100]; 0 (default) = a free box, 1 = square.
                  All lengths are taken with u stretched by it
@@ -50,14 +51,16 @@ gap              smallest distance between charts as a fraction of gap_unit, har
                  last per cent costs at most 3 % of E_d; result.warnings tells why larger ones were given up
 gap_unit         "diagonal" of the box (default) or its "long_side" (N texels of a texture of S: N / S)
 max_distortion   largest E_d allowed, on the surface (1 = isometric), or None; missed it raises, with best_effort too
+max_stretch      largest stretch allowed of 99 % of the surface (Measures.stretch_99), or None; in the same way. What is reduced stays
+                 E_d: results are judged by it
 max_boundary_growth  of "needed": how much boundary cuts may add, as a fraction of that of all charts on the surface, or None
-seam_cost        of "needed" without max_distortion: the E_d that a cut must save for each unit of boundary growth; default 0.1
+seam_cost        of "needed" without max_distortion or max_stretch: the E_d that a cut must save for each unit of boundary growth; default 0.1
 effort           of "needed": "fast", "normal" (default) or "best": the more cuts are tried, the fewer seams
 trade_off        of "needed": look for all outcomes that are worth a choice between seams and distortion (result.cuts.trade_off)
 point            with trade_off: which of them is wanted, from 0; None (default) = what the limits ask for
 relax            where less would hold the bound, go on to the least distortion under it; default False. "rectangles" do so
                  anyway, unless until_input
-best_effort      where the bound is not reached return the best valid atlas within max_distortion (bound_met says so), with
+best_effort      where the bound is not reached return the best valid atlas within both limits (bound_met says so), with
                  "needed" seams the least distorted one; default False
 density          "equal" (default): one scale for all charts; "keep": each chart its own, as far as bending leaves it that; a
                  warning names those whose texel density changed by more than 10 %

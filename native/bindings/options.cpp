@@ -147,6 +147,10 @@ std::map<std::string, Reader> make_readers() {
        [](Keywords& k, H v, S s) {
          if (!v.is_none()) k.options.max_distortion = number(v, s);
        }},
+      {"max_stretch",
+       [](Keywords& k, H v, S s) {
+         if (!v.is_none()) k.options.max_stretch = number(v, s);
+       }},
       {"relax", [](Keywords& k, H v, S s) { k.options.relax = read<bool>(v, s, "True or False"); }},
       {"best_effort", [](Keywords& k, H v, S s) { k.options.best_effort = read<bool>(v, s, "True or False"); }},
       {"density",

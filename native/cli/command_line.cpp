@@ -99,8 +99,8 @@ void add_goal(CLI::App& app, RefineOptions& options) {
   add(app, "--pe-bound", "PE", "Packing efficiency to reach, between 0 and 1 [0.8]",
       [&](const Value& v) { options.pe_bound = v.number_in(0, 1, true, "a number between 0 and 1, both excluded"); });
   add(app, "--seams", "none|needed|rectangles",
-      "Where new seams may come from: none are added, charts are cut where distortion is above --max-distortion or where a cut "
-      "saves more than --seam-cost, or all are cut into rectangles (Liu et al. 2019) [none]",
+      "Where new seams may come from: none are added, charts are cut where they are above --max-distortion or --max-stretch or "
+      "where a cut saves more than --seam-cost, or all are cut into rectangles (Liu et al. 2019) [none]",
       [&](const Value& v) {
         if (v.text != "none" && v.text != "needed" && v.text != "rectangles")
           v.refuse("must be 'none', 'needed' or 'rectangles'");
@@ -117,8 +117,8 @@ void add_goal(CLI::App& app, RefineOptions& options) {
       app, "--relax", options.relax,
       "Where less would hold the bound, go on to the least distortion under it; rectangles do so anyway, unless --until-input");
   add_flag(app, "--best-effort", options.best_effort,
-           "Where the bound is missed write the best valid atlas found; --max-distortion is kept all the same, but with needed "
-           "seams");
+           "Where the bound is missed write the best valid atlas found; --max-distortion and --max-stretch are kept all the "
+           "same, but with needed seams");
   add(app, "--density", "equal|keep",
       "One scale for all charts, or each chart's own as in IN as far as bending leaves it that [equal]", [&](const Value& v) {
         if (v.text != "equal" && v.text != "keep") v.refuse("must be 'equal' or 'keep'");
@@ -165,6 +165,10 @@ void add_distortion(CLI::App& app, CommandLine& line) {
   RefineOptions& options = line.options;
   add(app, "--max-distortion", "E_d", "Largest distortion E_d on the surface allowed, 1 = isometric [no limit]",
       [&](const Value& v) { options.max_distortion = v.number_in(1, HUGE_VAL, false, "a number of at least 1"); });
+  add(app, "--max-stretch", "S",
+      "Largest stretch allowed of 99 % of the surface: 1.3 lets lengths in the UV map be up to 1.3 times as long or as short as "
+      "at its mean scale; reached by less E_d, which is what charts are bent and cut for [no limit]",
+      [&](const Value& v) { options.max_stretch = v.number_in(1, HUGE_VAL, false, "a number of at least 1"); });
   add(app, "--reference", "surface|input",
       "The shapes that faces are to keep: those on the surface, or in the UVs of IN [surface]", [&](const Value& v) {
         if (v.text != "surface" && v.text != "input") v.refuse("must be 'surface' or 'input'");
@@ -205,7 +209,8 @@ void add_needed(CLI::App& app, Draft& draft) {
   };
   add_one("--max-boundary-growth", "R", "how much boundary cuts may add, as a fraction of that of all charts [no limit]",
           [&](const Value& v) { options.max_boundary_growth = v.number_in(0, HUGE_VAL, false, "a number of at least 0"); });
-  add_one("--seam-cost", "C", "without --max-distortion, the E_d that a cut must save for each unit of boundary growth [0.1]",
+  add_one("--seam-cost", "C",
+          "without --max-distortion or --max-stretch, the E_d that a cut must save for each unit of boundary growth [0.1]",
           [&](const Value& v) { options.seam_cost = v.number_in(0, HUGE_VAL, false, "a number of at least 0"); });
   add_one("--effort", "fast|normal|best", "how many cuts are tried: the more, the fewer seams [normal]", [&](const Value& v) {
     if (v.text != "fast" && v.text != "normal" && v.text != "best") v.refuse("must be 'fast', 'normal' or 'best'");
@@ -355,7 +360,7 @@ constexpr const char* exit_codes =
     "  1    internal error, or measure found the atlas invalid\n"
     "  2    usage: an option, or a place that cannot be written\n"
     "  3    input cannot be used\n"
-    "  4    bound not reached, --max-distortion missed, or no result held the exact test\n"
+    "  4    bound not reached, --max-distortion or --max-stretch missed, or no result held the exact test\n"
     "  130  Ctrl-C";
 
 }  // namespace

@@ -148,6 +148,7 @@ std::vector<PackingPoint> packing_curve(const Atlas& atlas, RefineOptions option
   options.trade_off = false;
   options.point.reset();
   options.max_distortion.reset();
+  options.max_stretch.reset();
   options.best_effort = options.relax = true;
   std::vector<PackingPoint> out;
   for (int percent = 60; percent <= 95; percent += 5) {

@@ -100,6 +100,7 @@ Json to_json(const CommandLine& line) {
           {"gap", o.gap ? to_json(*o.gap) : Json("automatic")},
           {"needed", o.seams == Seams::Needed ? needed_options(line) : Json(nullptr)},
           {"max_distortion", o.max_distortion ? Json(*o.max_distortion) : Json(nullptr)},
+          {"max_stretch", o.max_stretch ? Json(*o.max_stretch) : Json(nullptr)},
           {"relax", o.relax},
           {"best_effort", o.best_effort},
           {"density", o.density == Density::Keep ? "keep" : "equal"},

@@ -62,6 +62,7 @@ RefineOptions fuzzed_options(FuzzedDataProvider& data, const Atlas& atlas) {
   if (data.ConsumeBool()) options.gap = Gap{.value = data.PickValueInArray({0.0, 1e-9, 0.002, 0.02, 0.1})};
   if (options.gap && data.ConsumeBool()) options.gap->unit = Gap::Unit::LongSide;
   if (data.ConsumeIntegralInRange(0, 3) == 0) options.max_distortion = data.PickValueInArray({1.0, 1.01, 1.2, 10.0});
+  if (data.ConsumeIntegralInRange(0, 7) == 0) options.max_stretch = data.PickValueInArray({1.0, 1.1, 2.0});
   options.relax = data.ConsumeBool();
   options.best_effort = data.ConsumeBool();
   options.density = data.ConsumeBool() ? Density::Keep : Density::Equal;
@@ -84,6 +85,7 @@ std::string words(const RefineOptions& options) {
   if (options.gap) out << " --gap " << options.gap->value;
   flag(options.gap && options.gap->unit == Gap::Unit::LongSide, "(of the long side)");
   if (options.max_distortion) out << " --max-distortion " << *options.max_distortion;
+  if (options.max_stretch) out << " --max-stretch " << *options.max_stretch;
   flag(options.relax, "--relax");
   flag(options.best_effort, "--best-effort");
   flag(options.density == Density::Keep, "--density keep");

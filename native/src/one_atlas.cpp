@@ -21,8 +21,10 @@
 namespace atlas_refine {
 namespace {
 
-bool within_limit(const RefineOptions& options, double distortion) {
-  return !options.max_distortion || distortion <= *options.max_distortion * (1 + 1e-9);
+bool within_limits(const RefineOptions& options, const Measures& of) {
+  constexpr double kStored = 1e-5;  // of stretch, that rounding of stored UVs adds to small triangles
+  const bool kept = !options.max_distortion || of.distortion <= *options.max_distortion * (1 + 1e-9);
+  return kept && (!options.max_stretch || of.stretch_99 <= *options.max_stretch * (1 + kStored));
 }
 
 /// How much larger the UVs are to be; 1 where nothing is asked.
@@ -47,7 +49,7 @@ bool is_sound(const InputAtlas& input, const Freedoms& freedom, const RefineOpti
 /// box within the border.
 bool holds_already(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options, const RefineOptions& within) {
   const Measures& before = input.measures;
-  if (before.pe_fixed_aspect < options.pe_bound || !within_limit(options, before.distortion)) return false;
+  if (before.pe_fixed_aspect < options.pe_bound || !within_limits(options, before)) return false;
   if (!is_sound(input, freedom, options, within)) return false;
   const double aspect = options.box_aspect, border = border_of(options);
   const Vec2 box = is_in_texture(freedom, options) ? Vec2(aspect, 1) : box_of_aspect(uv_box(input.set.charts), aspect).size();
@@ -165,12 +167,20 @@ CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
   return certified(whole, refine_whole(whole, range.part(0, 0.96)), range);
 }
 
+/// Empty where there are none.
+std::string words_on_limits(const RefineOptions& options) {
+  const std::string distortion = options.max_distortion ? "a distortion of " + number_text("%g", *options.max_distortion) : "";
+  const std::string stretch = options.max_stretch ? "a stretch of " + number_text("%g", *options.max_stretch) : "";
+  return distortion + (distortion.empty() || stretch.empty() ? "" : " and ") + stretch;
+}
+
 /// Why the result is not what was asked for; empty where it is.
 std::string shortfall(const InputAtlas& input, const RefineOptions& options, const Measures& after) {
-  const std::string figures =
-      "packing efficiency " + number_text("%.4f", after.pe_fixed_aspect) + " at E_d " + number_text("%.4f", after.distortion);
-  const std::string limit = options.max_distortion ? "a distortion of " + number_text("%g", *options.max_distortion) : "";
-  if (!within_limit(options, after.distortion)) {
+  const std::string figures = "packing efficiency " + number_text("%.4f", after.pe_fixed_aspect) + " at E_d " +
+                              number_text("%.4f", after.distortion) +
+                              (options.max_stretch ? ", stretch " + number_text("%.4f", after.stretch_99) : "");
+  const std::string limit = words_on_limits(options);
+  if (!within_limits(options, after)) {
     const std::string growth = options.seams == Seams::Needed && options.max_boundary_growth
                                    ? " and a boundary growth of " + number_text("%g", *options.max_boundary_growth)
                                    : "";
@@ -198,8 +208,8 @@ Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, Certif
               .pieces = std::move(certified.atlas.pieces)};
   const std::string missed = shortfall(input, options, out.after);
   out.bound_met = missed.empty();
-  // Where cuts are allowed a limit of distortion is a goal like the bound, else it is what the effort must keep.
-  const bool acceptable = options.seams == Seams::Needed || within_limit(options, out.after.distortion);
+  // Where cuts are allowed limits of distortion are a goal like the bound, else they are what the effort must keep.
+  const bool acceptable = options.seams == Seams::Needed || within_limits(options, out.after);
   const bool takes_less = options.best_effort || out.ended == Ended::Stopped;
   if (!out.bound_met && !(takes_less && acceptable)) throw RefineError(ErrorCode::BoundNotReached, "squeeze", missed);
   for (int c : solution.re_embedded) out.charts[c].re_embedded = true;
@@ -238,7 +248,7 @@ void warn_of_early_end(const Solution& solution, Journal& journal) {
 /// True where an atlas that was stopped at is worth more than the input.
 bool better_than_input(const InputAtlas& input, const Freedoms& freedom, const RefineOptions& options,
                        const RefineOptions& within, const Measures& after) {
-  if (!within_limit(options, after.distortion)) return false;
+  if (!within_limits(options, after)) return false;
   return after.pe_fixed_aspect >= options.pe_bound || after.pe_fixed_aspect > input.measures.pe_fixed_aspect ||
          !is_sound(input, freedom, options, within);
 }
@@ -256,7 +266,7 @@ Outcome stopped(const InputAtlas& input, const RefineOptions& options, bool hold
 Outcome all_locked(const InputAtlas& input, const RefineOptions& options, bool holds) {
   Outcome out = unchanged(input, options);
   out.bound_met = holds;
-  if (!holds && !(options.best_effort && within_limit(options, input.measures.distortion)))
+  if (!holds && !(options.best_effort && within_limits(options, input.measures)))
     throw RefineError(ErrorCode::BoundNotReached, "input", shortfall(input, options, input.measures));
   return out;
 }

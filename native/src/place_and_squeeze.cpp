@@ -63,19 +63,19 @@ void warn_of_gap(const Refinement& run, const Gap& gap, const std::string& why) 
 }
 
 SqueezeOptions squeeze_options(const Refinement& run, const Freedoms& freedom, const std::vector<Gap>& gaps,
-                               double max_distortion = 0) {
+                               const DistortionLimits& limits = {}) {
   return {.pe_bound = run.options.pe_bound,
           .box_aspect = run.options.box_aspect,
           .gaps = gaps,
-          .max_distortion = max_distortion,
+          .limits = limits,
           .threads = run.threads,
           .freedom = freedom,
           .stored = run.options.stored};
 }
 
 Squeezed squeeze_from(const Refinement& run, const CutAtlas& atlas, const std::vector<PlacedCharts>& starts,
-                      const Freedoms& freedom, const std::vector<Gap>& gaps, double max_distortion) {
-  const SqueezeOptions options = squeeze_options(run, freedom, gaps, max_distortion);
+                      const Freedoms& freedom, const std::vector<Gap>& gaps, const DistortionLimits& limits) {
+  const SqueezeOptions options = squeeze_options(run, freedom, gaps, limits);
   Squeezed squeezed = squeeze(starts, goal_of(run.input.set.charts, atlas, run.options), options, run.monitor);
   run.journal.iterations += squeezed.iterations;
   return squeezed;
@@ -83,7 +83,7 @@ Squeezed squeeze_from(const Refinement& run, const CutAtlas& atlas, const std::v
 
 void squeeze_into(const Refinement& run, const std::vector<PlacedCharts>& starts, const Freedoms& freedom,
                   const std::vector<Gap>& gaps, Solution& out) {
-  const Squeezed best = squeeze_from(run, out.atlas, starts, freedom, gaps, run.options.max_distortion.value_or(0));
+  const Squeezed best = squeeze_from(run, out.atlas, starts, freedom, gaps, limits_of(run.options));
   if (!none_bends(freedom)) out.intervention = Intervention::Squeezed;
   out.atlas = with_uvs(std::move(out.atlas), best.outcome.uvs);
   out.atlas.frame = best.outcome.frame;
@@ -245,7 +245,7 @@ std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas&
   if (keeps_place) start = own_layout(run, pieces, freedom, gaps.front());
   if (!start) start = place(run, pieces, freedom, gaps.front(), kRoughly * run.options.pe_bound);
   if (is_far_above(run, atlas, *start, freedom, gaps, most)) return std::nullopt;
-  const ReduceResult result = squeeze_from(run, atlas, {*start}, freedom, gaps, most).outcome;
+  const ReduceResult result = squeeze_from(run, atlas, {*start}, freedom, gaps, {.distortion = most}).outcome;
   if (!result.holds()) return std::nullopt;
   return result.distortion;
 }

@@ -58,6 +58,10 @@ std::vector<Chart> movable_of(const std::vector<Chart>& charts, const Freedoms& 
   return out;
 }
 
+DistortionLimits limits_of(const RefineOptions& options) {
+  return {.distortion = options.max_distortion.value_or(0), .stretch = options.max_stretch.value_or(0)};
+}
+
 double packing_efficiency(const PlacedCharts& placed, double aspect) {
   const Box box = box_of(placed, aspect);
   if (!placed.has_frame()) return uv_area(placed.charts) / box.area();
@@ -72,8 +76,8 @@ bool gap_kept(const PlacedCharts& placed, const Freedoms& freedom, const Gap& ga
 
 bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare) {
   const RefineOptions& options = run.options;
-  const bool allowed = !options.max_distortion || dirichlet_sums(placed.charts).best_energy() <= *options.max_distortion;
-  return allowed && packing_efficiency(placed, options.box_aspect) >= spare * options.pe_bound;
+  return limits_of(options).used_by(placed.charts) <= 1 &&
+         packing_efficiency(placed, options.box_aspect) >= spare * options.pe_bound;
 }
 
 bool goes_on(const Refinement& run, std::size_t charts) {

@@ -20,9 +20,11 @@ struct Placing {
 /// Those that are not locked.
 std::vector<Chart> movable_of(const std::vector<Chart>& charts, const Freedoms& freedom);
 
+DistortionLimits limits_of(const RefineOptions& options);
+
 double packing_efficiency(const PlacedCharts& placed, double aspect);
 bool gap_kept(const PlacedCharts& placed, const Freedoms& freedom, const Gap& gap, double aspect);
-/// They reach the bound times `spare`, within the largest distortion allowed.
+/// They reach the bound times `spare`, within the limits of distortion.
 bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare = 1);
 
 /// Rectangles go on to the optimum under the bound, unless that was not to be or there are thousands of charts to bend.

@@ -13,6 +13,7 @@
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 #include "place_and_squeeze.h"
+#include "placing.h"
 #include "reduce/goal.h"
 #include "reduce/squeeze.h"
 #include "report/locked.h"
@@ -87,7 +88,7 @@ ReduceResult reduce(const Refinement& run, const Task& task, const Reduction& re
                               .enough_distortion = reduction.enough,
                               .least_change = 0,
                               .negligible = reduction.negligible,
-                              .max_distortion = run.options.max_distortion.value_or(0),
+                              .limits = limits_of(run.options),
                               .max_iterations = std::min(most, reduction.most),
                               .threads = threads,
                               .freedom = task.freedom,
@@ -125,7 +126,7 @@ struct CoarsePieces {
 
 /// Nothing where there is little to gain. What stops at some distortion has to see that of the pieces.
 std::optional<CoarsePieces> coarse_pieces(const Refinement& run, const CutPlan& plan, const CutAtlas& cut) {
-  if (triangle_count(cut) < kMany || run.options.max_distortion || plan.enough > 0) return std::nullopt;
+  if (triangle_count(cut) < kMany || limits_of(run.options).any() || plan.enough > 0) return std::nullopt;
   CoarsePieces out{.fine = meshes_of(cut),
                    .objective = goal_of(run.input.set.charts, cut, run.options),
                    .freedom = freedom_in(run, cut),

@@ -33,6 +33,16 @@ def test_a_limit_is_kept_with_few_seams(program, source):
     assert cut["options"]["needed"]["effort"] == "normal"
 
 
+def test_a_limit_of_stretch_is_kept_with_few_seams(program, source):
+    whole = run(program, source)
+    limit = 1 + 0.6 * (whole["after"]["stretch_99"] - 1)
+    cut = run(program, source, "--seams", "needed", "--max-stretch", str(limit))
+    assert cut["after"]["stretch_99"] <= limit * (1 + 1e-5)
+    assert cut["after"]["pe"] >= 0.8
+    assert cut["boundary_growth"] > 0
+    assert cut["options"]["max_stretch"] == limit
+
+
 def test_a_budget_of_seams_is_kept(program, source):
     told = run(program, source, "--seams", "needed", "--seam-cost", "0.001", "--max-boundary-growth", "0.12")
     assert 0 < told["boundary_growth"] <= 0.12

@@ -16,7 +16,7 @@ RECTANGLES = ["--seams", "rectangles", "--candidates", "20"]
 REPORTS = {
     "unchanged": ([grid(4)], [], "unchanged"),
     "moved": ([grid(4, 30)], [], "moved"),
-    "squeezed": ([arc(12)], ["--gap", "0.002", "--aspect", "2:1", "--max-distortion", "9"], "squeezed"),
+    "squeezed": ([arc(12)], ["--gap", "0.002", "--aspect", "2:1", "--max-distortion", "9", "--max-stretch", "9"], "squeezed"),
     "cut": ([arc(12)], RECTANGLES, "cut"),
     "several files": ([grid(4, 30), arc(8)], [], "squeezed"),
     "several files, cut": ([arc(12), grid(4, 30)], RECTANGLES, "cut"),

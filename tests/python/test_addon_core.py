@@ -58,6 +58,8 @@ def test_every_limit_but_0_reaches_the_engine():
     arguments = Options(max_distortion=-1.0).engine_arguments()
     with pytest.raises(atlas_refine.AtlasRefineError, match="the largest distortion must be"):
         atlas_refine.refine(*shapes.loose(), **arguments)
+    assert "max_stretch" not in Options().engine_arguments()
+    assert Options(max_stretch=1.25).engine_arguments()["max_stretch"] == 1.25
 
 
 def test_sigma_goes_with_rectangles_only():
@@ -83,7 +85,7 @@ def test_what_belongs_to_needed_seams_reaches_the_engine_with_them_only():
 
 
 def test_a_trade_off_is_asked_for_without_limits():
-    asked = Options(seams="NEEDED", max_distortion=1.01, limit_new_seams=True, effort="FAST", pe_bound=0.7)
+    asked = Options(seams="NEEDED", max_distortion=1.01, max_stretch=1.2, limit_new_seams=True, effort="FAST", pe_bound=0.7)
     assert asked.for_trade_off() == Options(seams="NEEDED", effort="FAST", pe_bound=0.7)
 
 
@@ -156,6 +158,7 @@ def test_a_limit_that_is_missed_is_told():
         str(caught.value)
     )
     best = refined_arc(best_effort=True, **asked)
+    assert what_was_done(best, 0.0, 1.001) == "Charts cut, moved and bent; the stretch stays above its limit"
     assert what_was_done(best, 1.001) == "Charts cut, moved and bent; the distortion stays above its limit"
     assert 0 < best.boundary_growth <= 0.12
 

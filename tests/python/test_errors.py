@@ -41,6 +41,7 @@ def test_a_bound_out_of_range(pe_bound):
         {"gap": 0.5},
         {"gap": float("nan")},
         {"max_distortion": 0.5},
+        {"max_stretch": 0.5},
         {"box_aspect": -1.0},
         {"box_aspect": 0.0099},
         {"box_aspect": 101.0},

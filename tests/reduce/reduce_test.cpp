@@ -150,7 +150,7 @@ TEST(Reduce, TellsWhereTheObjectiveIsLostAndWhatPushes) {
 TEST(Reduce, StopsAtTheLargestDistortion) {
   const std::vector<Chart> charts = s_chart();
   const double limit = 1.01;
-  const ReduceProblem problem{.charts = charts, .pe_target = 0.97, .max_distortion = limit};
+  const ReduceProblem problem{.charts = charts, .pe_target = 0.97, .limits = {.distortion = limit}};
   const ReduceResult result = reduce_distortion(problem);
   EXPECT_EQ(result.status, ReduceStatus::TooDistorted);
   EXPECT_FALSE(result.reached);
@@ -159,6 +159,21 @@ TEST(Reduce, StopsAtTheLargestDistortion) {
   EXPECT_GT(result.distortion, 1 + 0.7 * (limit - 1));  // what is allowed is used
   EXPECT_GT(result.pe, packing_efficiency(charts));
   checked(problem, result);
+}
+
+TEST(Reduce, StopsAtTheLargestStretch) {
+  const std::vector<Chart> charts = s_chart();
+  const double limit = 1.15;
+  const ReduceProblem problem{.charts = charts, .pe_target = 0.97, .limits = {.stretch = limit}};
+  const ReduceResult result = reduce_distortion(problem);
+  EXPECT_EQ(result.status, ReduceStatus::TooDistorted);
+  EXPECT_FALSE(result.reached);
+  EXPECT_TRUE(result.within_limit);
+  const std::vector<Chart> bent = with_uvs(charts, result.uvs);
+  const double stretch = stretch_99(bent, dirichlet_sums(bent).best_scale());
+  EXPECT_LE(stretch, limit);
+  EXPECT_GT(stretch, 1 + 0.7 * (limit - 1));  // what is allowed is used
+  EXPECT_GT(result.pe, packing_efficiency(charts));
 }
 
 TEST(Reduce, StopsWhereDistortionHasRisenTooFar) {

@@ -9,7 +9,8 @@ namespace atlas_refine {
 enum class ErrorCode {
   BadOption,        ///< an option is out of its range
   BadInput,         ///< the atlas cannot be used: indices, NaN, flips, zero-area UV faces, ...
-  BoundNotReached,  ///< no valid atlas at the bound, or none within max_distortion; the message names the best one's PE and E_d
+  BoundNotReached,  ///< no valid atlas at the bound, or none within max_distortion and max_stretch; the message names the best
+                    ///< one's PE and E_d
   NotCertified,     ///< a result failed the exact certificate and was withheld
   Cancelled,        ///< the progress callback asked to stop
 };

@@ -13,7 +13,8 @@ namespace atlas_refine {
 
 /// Where new seams may come from. None: charts bend inside a shrinking box (the squeeze), no seam is added. Rectangles: the
 /// paper's road; charts become axis-aligned and are cut into rectangles along motorcycle trails (sections 3.1 and 3.2). Needed:
-/// charts are squeezed, and cut where their distortion is above max_distortion or, without that, where a cut saves what it costs.
+/// charts are squeezed, and cut where their distortion is above max_distortion or max_stretch or, without these, where a cut
+/// saves what it costs.
 enum class Seams { None, Needed, Rectangles };
 
 /// The shapes that the objective asks triangles to keep (section 3.4, "Distortion type"): the surface's, or those of the input's
@@ -79,10 +80,14 @@ struct RefineOptions {
   std::optional<Gap> gap;
   /// Largest E_d allowed, >= 1; above it the call throws, with best_effort too, but with Seams::Needed.
   std::optional<double> max_distortion;
+  /// Largest Measures::stretch_99 allowed, >= 1, in the same way: 99 % of the surface may be stretched or shrunk by so much. The
+  /// objective stays E_d, whose optimum need not have the least stretch: this is what results are judged by.
+  std::optional<double> max_stretch;
   /// With Seams::Needed: how much boundary the cuts may add, as a fraction of that of all charts, on the surface; both sides of a
   /// cut count.
   std::optional<double> max_boundary_growth;
-  /// With Seams::Needed and without max_distortion: what boundary growth costs in E_d. A cut is made where it saves more.
+  /// With Seams::Needed and without max_distortion or max_stretch: what boundary growth costs in E_d. A cut is made where it
+  /// saves more.
   double seam_cost = 0.1;
   Effort effort = Effort::Normal;
   /// With Seams::Needed: look for all outcomes that are worth a choice (CutReport::trade_off, all squeezed to the end), not only
@@ -92,8 +97,8 @@ struct RefineOptions {
   /// Go on to the least of the objective under the bound where less would already hold it. Rectangles do so anyway, unless
   /// until_input, or in a thousand pieces and more.
   bool relax = false;
-  /// Where the bound is not reached return the best valid atlas within max_distortion, do not throw: PE against what it costs;
-  /// with Seams::Needed also where max_distortion is missed, the least distorted one.
+  /// Where the bound is not reached return the best valid atlas within max_distortion and max_stretch, do not throw: PE against
+  /// what it costs; with Seams::Needed also where one of these is missed, the least distorted one.
   bool best_effort = false;
   Density density = Density::Equal;
   /// The size of the result, as sqrt(UV area / surface area), UV units (of the texture's height) per model unit. A free box may

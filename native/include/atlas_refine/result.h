@@ -25,7 +25,7 @@ enum class Ended {
   Enough,           ///< the objective is back at the input's: the paper's stop
   Stalled,          ///< no further progress: there may be a better result
   OutOfIterations,  ///< likewise
-  DistortionLimit,  ///< the bound is out of reach within max_distortion
+  DistortionLimit,  ///< the bound is out of reach within max_distortion or max_stretch
   Stopped,          ///< the callback answered Finish: the best so far, or the input where nothing better was found
 };
 /// Stable lower-case name ("not_run", "at_optimum", ...), used in reports and in Python.
@@ -160,9 +160,9 @@ struct RefineResult {
   /// Edges of the input, as pairs of its vertices, that were cut where no face was divided (Cut::Edges); each once.
   std::vector<std::array<int, 2>> new_seams;
   Intervention intervention = Intervention::Unchanged;
-  /// False only with best_effort or Ended::Stopped, where PE is below the bound or, with Seams::Needed, max_distortion missed,
-  /// and where some group of several keeps its UVs because no result of it holds. Else max_distortion holds in all that was
-  /// refined.
+  /// False only with best_effort or Ended::Stopped, where PE is below the bound or, with Seams::Needed, max_distortion or
+  /// max_stretch missed, and where some group of several keeps its UVs because no result of it holds. Else both hold in all that
+  /// was refined.
   bool bound_met = false;
   /// Of the charts that take part, stacked ones once. With several groups PE, box and gaps are the least of theirs, distortions
   /// their means by area.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
@@ -22,6 +23,8 @@ Mat2 uv_edges(const Triangle& v, const std::vector<Vec2>& uvs) {
 }
 
 Mat2 uv_edges(const Chart& chart, std::size_t triangle) { return uv_edges(chart.triangles[triangle], chart.uvs); }
+
+constexpr double kPercentile = 0.99;
 
 /// |J|^2 and |J^-1|^2 = |J|^2 / det^2 of one triangle. One without UV area is left out: it would make every sum infinite.
 /// The determinant is taken factor by factor, so that it is zero where the UV edges are parallel.
@@ -85,19 +88,53 @@ DirichletSums dirichlet_sums_between(const std::vector<Chart>& from, const std::
   return sums;
 }
 
+double triangle_stretch(const RestTriangle& rest, const Triangle& triangle, const std::vector<Vec2>& uvs, double scale) {
+  const Mat2 edges = scale * uv_edges(triangle, uvs);
+  const Mat2 jacobian = edges * rest.inverse_edges;
+  // s1 + s2 and s1 - s2 from the parts of J that turn and that mirror.
+  const double sum = std::hypot(jacobian(0, 0) + jacobian(1, 1), jacobian(1, 0) - jacobian(0, 1));
+  const double difference = std::hypot(jacobian(0, 0) - jacobian(1, 1), jacobian(1, 0) + jacobian(0, 1));
+  const double s1 = 0.5 * (sum + difference);
+  const double s2 = std::abs(edges.determinant() * rest.inverse_edges.determinant()) / s1;
+  return s2 > 0 ? std::max(s1, 1 / s2) : std::numeric_limits<double>::infinity();
+}
+
 std::vector<double> triangle_stretch(const Chart& chart, double scale) {
-  std::vector<double> stretch(chart.triangles.size());
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
-    const Mat2 edges = scale * uv_edges(chart, t);
-    const Mat2 jacobian = edges * chart.surface[t].inverse_edges;
-    // s1 + s2 and s1 - s2 from the parts of J that turn and that mirror.
-    const double sum = std::hypot(jacobian(0, 0) + jacobian(1, 1), jacobian(1, 0) - jacobian(0, 1));
-    const double difference = std::hypot(jacobian(0, 0) - jacobian(1, 1), jacobian(1, 0) + jacobian(0, 1));
-    const double s1 = 0.5 * (sum + difference);
-    const double s2 = std::abs(edges.determinant() * chart.surface[t].inverse_edges.determinant()) / s1;
-    stretch[t] = s2 > 0 ? std::max(s1, 1 / s2) : std::numeric_limits<double>::infinity();
+  std::vector<double> out;
+  out.reserve(chart.triangles.size());
+  for (std::size_t t = 0; t < chart.triangles.size(); ++t)
+    out.push_back(triangle_stretch(chart.surface[t], chart.triangles[t], chart.uvs, scale));
+  return out;
+}
+
+double stretch_99(std::vector<StretchedArea> all) {
+  double total = 0, below = 0;
+  for (const StretchedArea& one : all) total += one.area;
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.stretch < b.stretch; });
+  for (const StretchedArea& one : all) {
+    below += one.area;
+    if (below >= kPercentile * total) return one.stretch;
   }
-  return stretch;
+  return all.back().stretch;
+}
+
+double stretch_99(const std::vector<Chart>& charts, double scale) {
+  std::vector<StretchedArea> all;
+  for (const Chart& chart : charts) {
+    for (std::size_t t = 0; t < chart.triangles.size(); ++t)
+      all.push_back({triangle_stretch(chart.surface[t], chart.triangles[t], chart.uvs, scale), chart.surface[t].area});
+  }
+  return stretch_99(std::move(all));
+}
+
+double DistortionLimits::used(double distortion_is, double stretch_is) const {
+  return std::max(distortion > 0 ? distortion_is / distortion : 0, stretch > 0 ? stretch_is / stretch : 0);
+}
+
+double DistortionLimits::used_by(const std::vector<Chart>& charts) const {
+  if (!any()) return 0;
+  const DirichletSums sums = dirichlet_sums(charts);
+  return used(sums.best_energy(), stretch > 0 ? stretch_99(charts, sums.best_scale()) : 0);
 }
 
 std::vector<double> triangle_losses(const Chart& chart, double scale) {

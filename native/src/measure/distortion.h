@@ -28,8 +28,29 @@ DirichletSums dirichlet_sums(const std::vector<RestTriangle>& rest, const std::v
 /// of `to`.
 DirichletSums dirichlet_sums_between(const std::vector<Chart>& from, const std::vector<Chart>& to);
 
-/// max(s1, 1 / s2) of every triangle's Jacobian (rest -> UV) times `scale`.
+/// max(s1, 1 / s2) of the Jacobian (rest -> UV) times `scale`.
+double triangle_stretch(const RestTriangle& rest, const Triangle& triangle, const std::vector<Vec2>& uvs, double scale);
+/// The same of every triangle.
 std::vector<double> triangle_stretch(const Chart& chart, double scale);
+
+/// Stretch of one triangle, and its area on the surface.
+struct StretchedArea {
+  double stretch, area;
+};
+/// What 99 % of the area is stretched by at most: the area-weighted percentile.
+double stretch_99(std::vector<StretchedArea> all);
+double stretch_99(const std::vector<Chart>& charts, double scale);
+
+/// What charts may be distorted by; 0 = no limit.
+struct DistortionLimits {
+  double distortion = 0;  ///< E_d
+  double stretch = 0;     ///< stretch_99()
+
+  bool any() const { return distortion > 0 || stretch > 0; }
+  /// The largest of both as a part of its limit: above 1 one is exceeded; 0 without limits.
+  double used(double distortion_is, double stretch_is) const;
+  double used_by(const std::vector<Chart>& charts) const;
+};
 
 /// area * (E_d - 1) of every triangle, its UVs times `scale`.
 std::vector<double> triangle_losses(const Chart& chart, double scale);

@@ -11,7 +11,6 @@ namespace atlas_refine {
 namespace {
 
 constexpr double kSmallChart = 0.03;  // N3 counts charts below this share of the surface
-constexpr double kPercentile = 0.99;
 
 void measure_chart_sizes(const std::vector<Chart>& charts, Measures& measures) {
   std::vector<double> areas;
@@ -24,27 +23,6 @@ void measure_chart_sizes(const std::vector<Chart>& charts, Measures& measures) {
   measures.smallest_chart = *std::min_element(areas.begin(), areas.end()) / total;
   measures.small_charts =
       static_cast<int>(std::count_if(areas.begin(), areas.end(), [&](double area) { return area < kSmallChart * total; }));
-}
-
-void measure_stretch(const std::vector<Chart>& charts, double scale, Measures& measures) {
-  std::vector<std::pair<double, double>> stretch_and_area;
-  double total = 0;
-  for (const Chart& chart : charts) {
-    const std::vector<double> stretch = triangle_stretch(chart, scale);
-    for (std::size_t t = 0; t < stretch.size(); ++t) {
-      stretch_and_area.push_back({stretch[t], chart.surface[t].area});
-      total += chart.surface[t].area;
-    }
-  }
-  std::sort(stretch_and_area.begin(), stretch_and_area.end());
-  measures.stretch_max = measures.stretch_99 = stretch_and_area.back().first;
-  double below = 0;
-  for (const auto& [stretch, area] : stretch_and_area) {
-    below += area;
-    if (below < kPercentile * total) continue;
-    measures.stretch_99 = stretch;
-    break;
-  }
 }
 
 }  // namespace
@@ -62,7 +40,12 @@ Measures measure_charts(const std::vector<Chart>& charts, double box_aspect) {
   const DirichletSums sums = dirichlet_sums(charts);
   measures.distortion = sums.best_energy();
   measures.distortion_to_input = 1;
-  measure_stretch(charts, sums.best_scale(), measures);
+  measures.stretch_99 = stretch_99(charts, sums.best_scale());
+  measures.stretch_max = 0;
+  for (const Chart& chart : charts) {
+    for (const double stretch : triangle_stretch(chart, sums.best_scale()))
+      measures.stretch_max = std::max(measures.stretch_max, stretch);
+  }
   const double diagonal = box.diagonal() > 0 ? box.diagonal() : 1;
   measures.gap_between = gap_between_charts(charts) / diagonal;
   measures.gap_within = gap_within(charts, sums.best_scale(), kFarArc);

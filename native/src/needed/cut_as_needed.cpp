@@ -40,7 +40,11 @@ Budget budget_of(Effort effort) {
 class Search {
  public:
   Search(CutTrials& trials, const RefineOptions& options, const ProgressRange& range)
-      : trials_(trials), options_(options), wish_{options}, budget_(budget_of(options.effort)), rest_(range) {}
+      : trials_(trials),
+        options_(options),
+        wish_{options},
+        budget_(budget_of(options.effort)),
+        rest_(range) {}
 
   SqueezedTrial run() {
     found_.squeezed.push_back(trials_.without_cuts(step()));
@@ -80,7 +84,8 @@ class Search {
     expand(found_.squeezed.front());
     for (int k = 0; k < budget_.expansions && !found_.forecast.empty() && !trials_.finishing(); ++k) {
       const double price = kPrices[k % kPrices.size()];
-      const SqueezedTrial* found = squeeze(cheapest([&](const Trial& trial) { return loss(trial) + price * trial.growth; }));
+      const SqueezedTrial* found =
+          squeeze(cheapest([&](const Trial& trial) { return loss(trial) + price * trial.growth; }));
       if (found) expand(*found);
     }
     for (int k = 0; k < kMostPoints && !trials_.finishing(); ++k) {
@@ -161,6 +166,7 @@ class Search {
 Solution cut_as_needed(const Refinement& run, const ProgressRange& range) {
   RefineOptions unlimited = run.options;
   unlimited.max_distortion.reset();
+  unlimited.max_stretch.reset();
   const Refinement free{run.input, unlimited, run.monitor, run.journal, run.threads, run.asked};
   CutTrials trials(free, range.part(0, 0.1));
   SqueezedTrial best = Search(trials, run.options, range.part(0.1, 1)).run();

@@ -3,20 +3,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace atlas_refine {
 namespace {
 
+constexpr double kLag = 0.4;  // as excess: the first cuts take more of E_d away than of the worst stretch
+
 bool same(const Trial& a, const Trial& b) { return a.growth == b.growth && a.distortion == b.distortion; }
+
+/// The same of stretch: E_d - 1 goes with its square.
+double excess_of_stretch(double stretch) { return 2 * std::log(std::clamp(stretch - 1, kLeastExcess, kHopeless - 1)); }
 
 }  // namespace
 
 double loss(const Trial& trial) { return std::min(trial.distortion, kHopeless); }
 
+double excess(double distortion) { return std::log(std::clamp(distortion - 1, kLeastExcess, kHopeless - 1)); }
+
+double Wish::above_limits(const Trial& trial) const {
+  const double none = -std::numeric_limits<double>::infinity();
+  const std::optional<double>&distortion = options.max_distortion, &stretch = options.max_stretch;
+  return std::max(distortion ? excess(trial.distortion) - excess(*distortion) : none,
+                  stretch ? excess_of_stretch(trial.stretch) - excess_of_stretch(*stretch) : none);
+}
+
+double Wish::aim(const Trial& squeezed) const {
+  double out = options.max_distortion ? excess(*options.max_distortion) : excess(kHopeless);
+  if (options.max_stretch) {
+    const double lag = squeezed.cuts.empty() ? kLag : 0;
+    const double above = excess_of_stretch(squeezed.stretch) - excess_of_stretch(*options.max_stretch);
+    out = std::min(out, excess(squeezed.distortion) - above - lag);
+  }
+  return out;
+}
+
 bool Wish::is_better(const Trial& a, const Trial& b) const {
   if (!has_limit()) return cost(a) < cost(b) - kSettled;
   if (is_enough(a) != is_enough(b)) return is_enough(a);
-  return is_enough(a) ? a.growth < b.growth : a.distortion < b.distortion;
+  if (is_enough(a)) return a.growth < b.growth;
+  return std::pair(above_limits(a), a.distortion) < std::pair(above_limits(b), b.distortion);
 }
 
 bool Outcomes::knows(const Trial& trial) const {

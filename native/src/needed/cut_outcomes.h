@@ -5,22 +5,33 @@
 #include <vector>
 
 #include "needed/cut_trials.h"
+#include "placing.h"
 
 namespace atlas_refine {
 
 inline constexpr double kShortest = 0.02;  ///< growth added to each cut's where rates are compared: else the shortest always win
 inline constexpr double kHopeless = 10;    ///< E_d that counts where the bound does not hold
-inline constexpr double kSettled = 1e-4;   ///< of E_d: less is no gain
+inline constexpr double kLeastExcess = 1e-6;  ///< of E_d above 1
+inline constexpr double kSettled = 1e-4;      ///< of E_d: less is no gain
 
 /// E_d, or what counts where the bound does not hold.
 double loss(const Trial& trial);
+
+/// Cuts save a part of what is lost, not a number of it: they are compared by its logarithm.
+double excess(double distortion);
 
 /// What the options ask of cuts.
 struct Wish {
   const RefineOptions& options;
 
-  bool has_limit() const { return options.max_distortion.has_value(); }
-  bool is_enough(const Trial& trial) const { return has_limit() && trial.distortion <= *options.max_distortion; }
+  bool has_limit() const { return options.max_distortion || options.max_stretch; }
+  bool is_enough(const Trial& trial) const {
+    return has_limit() && limits_of(options).used(trial.distortion, trial.stretch) <= 1;
+  }
+  /// By how much it exceeds the limits, as excess(); negative where it is below them.
+  double above_limits(const Trial& trial) const;
+  /// The excess that is likely to keep the limits, as far as one tells that was squeezed: only E_d is forecast.
+  double aim(const Trial& squeezed) const;
   double cost(const Trial& trial) const { return loss(trial) + options.seam_cost * trial.growth; }
 
   /// With a limit the least seams that keep it, else the least of distortion and what seams cost.

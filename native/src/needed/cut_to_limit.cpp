@@ -25,7 +25,6 @@ constexpr double kLeastGain = 0.01;     // of the logarithm of E_d - 1
 constexpr double kMuchLess = 0.7;       // of the boundary
 constexpr double kRoughly = 1.25;       // times the boundary that is told before a cut is made
 constexpr double kNear = 0.1;           // of it, above the limit: what is forecast so near may keep it
-constexpr double kLeastExcess = 1e-6;   // of E_d above 1
 
 /// How far the search goes.
 struct Budget {
@@ -48,9 +47,6 @@ Budget budget_of(Effort effort) {
   }
   return {};
 }
-
-/// Cuts save a part of what is lost, not a number of it: they are compared by its logarithm.
-double excess(double distortion) { return std::log(std::clamp(distortion - 1, kLeastExcess, kHopeless - 1)); }
 
 bool same(const CutPlace& a, const CutPlace& b) {
   const bool straight = a.chord.at[0] == b.chord.at[0] && a.chord.at[1] == b.chord.at[1];
@@ -148,8 +144,10 @@ Prospect taken_from(std::vector<Prospect>& prospects, std::vector<Prospect>::ite
 /// Sets that the search may go on with, and which of them first.
 class Frontier {
  public:
-  /// `limit`: as excess.
-  Frontier(const CutTrials& trials, double limit) : trials_(trials), limit_(limit) {}
+  explicit Frontier(const CutTrials& trials) : trials_(trials) {}
+
+  /// What to come to, as excess.
+  void aim_at(double limit) { limit_ = limit; }
 
   bool empty() const { return open_.empty(); }
   bool is_near(const Trial& trial) const { return likely_excess(trial) <= limit_ + kNear; }
@@ -258,7 +256,7 @@ class Frontier {
   }
 
   const CutTrials& trials_;
-  double limit_;
+  double limit_ = 0;
   std::vector<Prospect> open_;
   std::vector<std::vector<CutPlace>> seen_;
   Savings savings_;
@@ -275,12 +273,13 @@ class LimitSearch {
         budget_(budget_of(options.effort)),
         rest_(range),
         found_(found),
-        frontier_(trials, excess(*options.max_distortion)) {}
+        frontier_(trials) {}
 
   void run() {
     const SqueezedTrial& whole = found_.squeezed.front();
     if (wish_.is_enough(whole.trial)) return;
     frontier_.learn_bias(whole.trial, whole.trial.foreseen);
+    frontier_.aim_at(wish_.aim(whole.trial));
     start_from(whole);
     while (!trials_.finishing() && static_cast<int>(found_.squeezed.size()) <= budget_.squeezes) {
       auto next = frontier_.next(keeps_limit() ? found_.best(wish_).trial.growth : std::numeric_limits<double>::infinity());
@@ -355,6 +354,7 @@ class LimitSearch {
     if (!squeezed) return;
     frontier_.learn_bias(squeezed->trial, trial.foreseen);
     const SqueezedTrial& found = found_.squeezed.emplace_back(std::move(*squeezed));
+    frontier_.aim_at(wish_.aim(found_.best(wish_).trial));
     if (wish_.is_enough(found.trial)) {
       frontier_.add_less(found.trial);
     } else {

@@ -60,15 +60,18 @@ double CutTrials::growth_of(const std::vector<ChartCuts>& charts) const {
   return boundary_ > 0 ? 2 * length / boundary_ : 0;
 }
 
-double CutTrials::distortion_of(const Solution& solution) const {
+void CutTrials::measure(const Solution& solution, Trial& trial) const {
   const std::vector<Chart> charts = meshes_of(solution.atlas);
-  if (!holds_bound(run_, {.charts = charts, .frame = solution.atlas.frame})) return std::numeric_limits<double>::infinity();
-  return dirichlet_sums(charts).best_energy();
+  trial.distortion = trial.stretch = std::numeric_limits<double>::infinity();
+  if (!holds_bound(run_, {.charts = charts, .frame = solution.atlas.frame})) return;
+  const DirichletSums sums = dirichlet_sums(charts);
+  trial.distortion = sums.best_energy();
+  trial.stretch = stretch_99(charts, sums.best_scale());
 }
 
 SqueezedTrial CutTrials::without_cuts(const ProgressRange& range) {
   SqueezedTrial out{.trial = {}, .solution = place_and_squeeze(run_, whole_.atlas, whole_.keeps_place, range)};
-  out.trial.distortion = distortion_of(out.solution);
+  measure(out.solution, out.trial);
   const std::vector<Chart> charts = meshes_of(out.solution.atlas);
   const Objective objective = goal_of(run_.input.set.charts, out.solution.atlas, run_.options);
   const double energy = reduce_distortion({.charts = charts, .objective = &objective, .max_iterations = 0}).energy;
@@ -154,7 +157,7 @@ std::optional<SqueezedTrial> CutTrials::squeezed(const Trial& trial, const Progr
   if (solution) {
     out = SqueezedTrial{.trial = trial, .solution = std::move(*solution)};
     out->trial.forecast.reset();
-    out->trial.distortion = distortion_of(out->solution);
+    measure(out->solution, out->trial);
     out->trial.losses = losses(*atlas, out->solution);
     keep_words(before, *out);
     if (trial.in_place_of) out->warnings = trial.in_place_of->warnings;
@@ -172,7 +175,8 @@ std::optional<SqueezedTrial> CutTrials::rectangles(const ProgressRange& range) c
     out = SqueezedTrial{.trial = {}, .solution = std::move(*attempt.solution)};
     if (out->solution.rectangles) out->trial.trails = out->solution.rectangles->trails;
     out->trial.growth = boundary_on_surface(meshes_of(out->solution.atlas)) / boundary_ - 1;
-    out->trial.foreseen = out->trial.distortion = distortion_of(out->solution);
+    measure(out->solution, out->trial);
+    out->trial.foreseen = out->trial.distortion;
     keep_words(before, *out);
     out->fallbacks.push_back("cut into rectangles: no fewer seams were found that keep distortion within the limit");
   }

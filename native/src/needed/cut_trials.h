@@ -25,6 +25,7 @@ struct Trial {
   double growth = 0;           ///< of the boundary on the surface, as a fraction of that of the charts; both sides of a cut count
   double distortion = 0;       ///< E_d; infinite where the bound does not hold
   double foreseen = 0;         ///< the same as it was forecast
+  double stretch = 0;          ///< 99th percentile, once it is squeezed
   /// What they are one cut more than, where the pieces are best left in its layout; else they are placed anew.
   const SqueezedTrial* in_place_of = nullptr;
   std::optional<Forecast> forecast = {};
@@ -54,7 +55,7 @@ struct Previews {
 
 class CutTrials {
  public:
-  /// `run`: without a largest distortion.
+  /// `run`: without limits of distortion.
   CutTrials(const Refinement& run, const ProgressRange& range);
 
   /// Pieces are best placed anew with every cut, not left where they lie.
@@ -101,14 +102,14 @@ class CutTrials {
   std::vector<std::vector<Loss>> losses(const CutAtlas& atlas, const Forecast& forecast) const;
   void keep_words(const Journal::Mark& since, SqueezedTrial& out) const;
   Vec2 place_before(const Piece& piece, int vertex) const;
-  double distortion_of(const Solution& solution) const;
+  void measure(const Solution& solution, Trial& trial) const;
 
   const Refinement& run_;
   Freedoms freedom_;
   WholeCharts whole_;
   ShapesAsTheyCame shapes_;
   std::vector<SidePrices> prices_;
-  double boundary_;    // of all charts, on the surface
+  double boundary_;  // of all charts, on the surface
   double area_ = 0;    // likewise
   double offset_ = 0;  // E_d less the objective, which other densities, shapes or weights make differ
 };

@@ -119,7 +119,7 @@ std::vector<Forecast::Loss> losses_of(const std::vector<Chart>& charts, const st
 Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor) {
   // Under a limit of distortion charts hold their PE until they have relaxed: that is for the fine ones to find out.
-  if (options.max_distortion == 0) {
+  if (!options.limits.any()) {
     if (auto out = squeeze_coarsely(starts, objective, options, monitor)) return std::move(*out);
   }
   return squeeze_directly(starts, objective, options, monitor);

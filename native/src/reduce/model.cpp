@@ -200,7 +200,9 @@ double model_energy(const ReduceModel& model, const std::vector<Vec2>& x) {
   return model.held_energy + dirichlet_energy(model.objective, model.triangles, x);
 }
 
-double surface_distortion(const std::vector<Chart>& charts, const ReduceModel& model, const std::vector<Vec2>& x) {
+namespace {
+
+DirichletSums surface_sums(const std::vector<Chart>& charts, const ReduceModel& model, const std::vector<Vec2>& x) {
   std::vector<RestTriangle> surface;  // not kept: it is large, and asked for where E_d is limited only
   surface.reserve(model.surface_triangles.size());
   for (const Chart& chart : charts) {
@@ -208,7 +210,29 @@ double surface_distortion(const std::vector<Chart>& charts, const ReduceModel& m
       surface.push_back({shape.inverse_edges, share * shape.area});
     });
   }
-  return dirichlet_sums(surface, model.surface_triangles, x).best_energy();
+  return dirichlet_sums(surface, model.surface_triangles, x);
+}
+
+}  // namespace
+
+double surface_distortion(const std::vector<Chart>& charts, const ReduceModel& model, const std::vector<Vec2>& x) {
+  return surface_sums(charts, model, x).best_energy();
+}
+
+double used_limits(const std::vector<Chart>& charts, const DistortionLimits& limits, const ReduceModel& model,
+                   const std::vector<Vec2>& x) {
+  const DirichletSums sums = surface_sums(charts, model, x);
+  if (limits.stretch == 0) return limits.used(sums.best_energy(), 0);
+  const double scale = sums.best_scale();
+  std::vector<StretchedArea> stretched;
+  std::size_t element = 0;
+  for (const Chart& chart : charts) {
+    for (std::size_t t = 0; t < chart.triangles.size(); ++t)
+      stretched.push_back(
+          {triangle_stretch(chart.surface[t], model.surface_triangles[element + t], x, scale), chart.surface[t].area});
+    element += chart.triangles.size() + chart.guards.size();
+  }
+  return limits.used(sums.best_energy(), stretch_99(std::move(stretched)));
 }
 
 std::vector<Vec2> pe_gradient(const ReduceModel& model, const ReduceState& state) {

@@ -64,6 +64,9 @@ std::vector<Vec2> pe_gradient(const ReduceModel& model, const ReduceState& state
 double model_energy(const ReduceModel& model, const std::vector<Vec2>& x);
 /// E_d on the surface of the model's charts, under the one global scale that minimises it.
 double surface_distortion(const std::vector<Chart>& charts, const ReduceModel& model, const std::vector<Vec2>& x);
+/// What of the limits these charts use, as DistortionLimits::used_by().
+double used_limits(const std::vector<Chart>& charts, const DistortionLimits& limits, const ReduceModel& model,
+                   const std::vector<Vec2>& x);
 
 /// A gradient by the sides of the box as the box node has it.
 Vec2 on_box_node(const ReduceModel& model, const Vec2& by_sides);

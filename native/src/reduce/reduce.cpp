@@ -32,7 +32,7 @@ constexpr double kWorthOfJam = 5e-6;  // and where charts press against each oth
 struct Iterate {
   ReduceState state;
   double energy = 0;
-  double distortion = 0;  ///< of the surface; kept up only where it is limited
+  double used_limits = 0;  ///< of distortion; above 1 one is exceeded
   double pe = 0;
   double price = 0;
   double fraction = 1;  ///< of the last step that was taken
@@ -61,7 +61,7 @@ struct Task {
 
   bool bounded() const { return model.has_box; }
   bool holds_bound(const Iterate& at) const { return !bounded() || at.pe >= problem.pe_target; }
-  bool within_limit(const Iterate& at) const { return problem.max_distortion == 0 || at.distortion <= problem.max_distortion; }
+  bool within_limit(const Iterate& at) const { return at.used_limits <= 1; }
   /// log of target / PE, positive while the bound does not hold.
   double deficit(const Iterate& at, double margin) const {
     return bounded() ? std::log(problem.pe_target * (1 + kTargetSlack + margin) / at.pe) : 0;
@@ -71,7 +71,8 @@ struct Task {
 
 void measure(const Task& task, Iterate& at) {
   if (task.bounded()) at.pe = tight_pe(task.model, at.state);
-  if (task.problem.max_distortion > 0) at.distortion = surface_distortion(task.problem.charts, task.model, at.state.x);
+  const DistortionLimits& limits = task.problem.limits;
+  if (limits.any()) at.used_limits = used_limits(task.problem.charts, limits, task.model, at.state.x);
 }
 
 Iterate first_iterate(const Task& task) {
@@ -176,13 +177,13 @@ void advance(const Task& task, const Step& step, const Schedule& schedule, Itera
 
 /// What one iteration changed.
 struct Change {
-  double energy, distortion, pe;
+  double energy, used_limits, pe;
 };
 
 /// Above the largest distortion, and losing it so slowly that the limit is out of reach.
-bool hopeless(const Task& task, const Iterate& at, const Change& change) {
+bool hopeless(const Iterate& at, const Change& change) {
   constexpr double kSlow = 0.05;  // of the way to the limit in one iteration
-  return at.fraction > 0.5 && -change.distortion < kSlow * (at.distortion - task.problem.max_distortion);
+  return at.fraction > 0.5 && -change.used_limits < kSlow * (at.used_limits - 1);
 }
 
 /// So far below the bound that at the pace so far no iteration that is left reaches it.
@@ -228,7 +229,7 @@ Counters counted(const Task& task, const Change& change, const Iterate& at, cons
   const double most_rise = schedule.damping <= kTelling ? problem.max_rise : crushed;
   counters.expensive = at.energy > (1 + most_rise) * counters.least_energy ? counters.expensive + 1 : 0;
   const bool above = !task.within_limit(at);
-  counters.distorted = above && hopeless(task, at, change) ? counters.distorted + 2 : above && quiet ? counters.distorted + 1 : 0;
+  counters.distorted = above && hopeless(at, change) ? counters.distorted + 2 : above && quiet ? counters.distorted + 1 : 0;
   const bool progress = moved > 1e-5 * (at.energy - 1) + 0.1 * kNegligible || change.pe > 1e-5 * at.pe;
   counters.idle = progress ? 0 : counters.idle + 1;
   count_unrewarded(task, at, schedule, counters);
@@ -252,7 +253,7 @@ std::optional<ReduceStatus> ended(const Task& task, const Iterate& at, const Sch
 bool better(const Task& task, const Iterate& a, const Iterate& b, double least) {
   const bool a_within = task.within_limit(a), b_within = task.within_limit(b);
   if (a_within != b_within) return a_within;
-  if (!a_within) return a.distortion < b.distortion;
+  if (!a_within) return a.used_limits < b.used_limits;
   const bool a_holds = task.holds_bound(a), b_holds = task.holds_bound(b);
   if (a_holds != b_holds) return a_holds;
   if (a_holds) return a.energy < b.energy;
@@ -332,12 +333,12 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
       status = ReduceStatus::Stalled;
       break;
     }
-    const double energy = at.energy, distortion = at.distortion, pe = at.pe;
+    const double energy = at.energy, used = at.used_limits, pe = at.pe;
     advance(task, *step, schedule, at);
     account_step(at.fraction);
     if (relaxing) adapt_margin(schedule, std::abs(std::log(at.pe / pe) - at.fraction * step->predicted_gain));
     adapt(schedule, task.view(at, schedule.margin), at.price, at.fraction);
-    counters = counted(task, {at.energy - energy, at.distortion - distortion, at.pe - pe}, at, schedule, counters);
+    counters = counted(task, {at.energy - energy, at.used_limits - used, at.pe - pe}, at, schedule, counters);
     if (better(task, at, best, std::min(first_energy, counters.least_energy))) best = at;
   }
   ReduceResult out = result_of(task, best, status, schedule.stiffness, iteration);

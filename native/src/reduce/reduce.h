@@ -7,6 +7,7 @@
 
 #include "atlas_refine/options.h"
 #include "geometry/freedom.h"
+#include "measure/distortion.h"
 #include "solve/objective.h"
 
 namespace atlas_refine {
@@ -45,7 +46,7 @@ struct ReduceProblem {
   double enough_distortion = 0;  ///< stop as soon as the bound holds and the objective is at most this; 0 = go to the optimum
   double least_change = 2e-4;    ///< at the optimum where the objective - 1 changes by less, relative, twice in a row
   double negligible = 1e-8;      ///< or by less than this; what the present price gives for a change of PE is left out
-  double max_distortion = 0;     ///< of the surface's E_d: give up the climb once it is exceeded at its least; 0 = no limit
+  DistortionLimits limits = {};  ///< on the surface: give up the climb once one is exceeded at its least
   double max_rise = 0;  ///< give up the climb where the objective exceeds its least so far by this factor - 1; 0 = no limit
   double most_energy =
       0;  ///< give up where the objective falls so slowly that it ends far above this; 0 = no limit; without a box
@@ -61,7 +62,7 @@ enum class ReduceStatus {
   Converged,     ///< the target holds and the objective is at its optimum there
   Enough,        ///< the target holds and the objective is at most enough_distortion
   Stalled,       ///< no further progress; `reached` tells whether the target holds
-  TooDistorted,  ///< max_distortion was met before the target
+  TooDistorted,  ///< a limit of distortion was met before the target
   TooExpensive,  ///< max_rise was met before the target
   OutOfTime,     ///< max_iterations
   Stopped,       ///< the monitor asked for the best state so far
@@ -77,16 +78,16 @@ struct ReduceProgress {
 /// Called before every iteration; false ends with the best state so far. May throw to cancel.
 using ReduceMonitor = std::function<bool(const ReduceProgress&)>;
 
-/// The best state that was found: within max_distortion if any was, then at the target if any was, then of the least objective
-/// there, or the one that is worth the most below it (`worth_below_target`): a high PE, but not of charts that were crushed for
-/// it.
+/// The best state that was found: within its limits of distortion if any was, then at the target if any was, then of the least
+/// objective there, or the one that is worth the most below it (`worth_below_target`): a high PE, but not of charts that were
+/// crushed for it.
 struct ReduceResult {
   std::vector<std::vector<Vec2>> uvs;  ///< one array per chart, in the start's units
   Vec2 frame = Vec2::Zero();           ///< where the problem has one: what it has become
   WarmStart end;                       ///< for a problem that goes on from here
   ReduceStatus status = ReduceStatus::Converged;
   bool reached = false;  ///< PE of the frame, or of the charts' own bounding box (of the asked aspect), is at least the target
-  bool within_limit = true;  ///< E_d is at most max_distortion
+  bool within_limit = true;  ///< of distortion
   bool holds() const { return reached && within_limit; }
   double pe = 0;
   double least_energy = 0;  ///< the least objective on the way, at whatever PE

@@ -26,7 +26,7 @@ ReduceResult reduce_from(const PlacedCharts& start, const Objective& objective, 
   ReduceProblem problem = problem_at(start, objective, gap, options);
   problem.least_change = options.least_change;
   problem.negligible = options.negligible;
-  problem.max_distortion = options.max_distortion;
+  problem.limits = options.limits;
   problem.max_rise = gap.value == options.gaps.back().value || start.charts.size() == 1 ? 0 : kMostRise;
   problem.threads = threads;
   return reduce_distortion(problem, [&](const ReduceProgress& progress) {

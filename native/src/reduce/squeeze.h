@@ -15,8 +15,8 @@ namespace atlas_refine {
 struct SqueezeOptions {
   double pe_bound = 0.8;
   double box_aspect = 0;
-  std::vector<Gap> gaps;      ///< to be tried in this order: the asked one, then smaller ones where that is allowed
-  double max_distortion = 0;  ///< of the surface's E_d; 0 = no limit
+  std::vector<Gap> gaps;         ///< to be tried in this order: the asked one, then smaller ones where that is allowed
+  DistortionLimits limits = {};  ///< of the surface
   int threads = 1;
   Freedoms freedom = {};       ///< of the charts; fixed ones need starts in a frame
   double least_change = 5e-4;  ///< ReduceProblem::least_change: the last 1e-5 of E_d took a third of all iterations

@@ -62,6 +62,8 @@ void check_options(const Atlas& atlas, const RefineOptions& options) {
   if (options.gap) check_gap(options.gap->value);
   require(!options.max_distortion || (*options.max_distortion >= 1 && std::isfinite(*options.max_distortion)),
           "the largest distortion must be a finite number of at least 1");
+  require(!options.max_stretch || (*options.max_stretch >= 1 && std::isfinite(*options.max_stretch)),
+          "the largest stretch must be a finite number of at least 1");
   require(!options.max_boundary_growth || (*options.max_boundary_growth >= 0 && std::isfinite(*options.max_boundary_growth)),
           "the largest boundary growth must be a finite number of at least 0");
   require(options.seam_cost >= 0 && std::isfinite(options.seam_cost), "the seam cost must be a finite number of at least 0");
