@@ -1,6 +1,7 @@
 // Cuts only where they are needed or pay, by the public measures of the output mesh.
 #include <cmath>
 
+#include "closed_shapes.h"
 #include "cut_checks.h"
 #include "output_checks.h"
 #include "sheets.h"
@@ -116,6 +117,34 @@ TEST(Needed, WithoutALimitCutsAreMadeWhereTheyPay) {
   const RefineResult cheap = refine_soundly(atlas, options);
   EXPECT_GT(cheap.added_seams, 0);
   EXPECT_LT(cheap.after.distortion + options.seam_cost * cheap.boundary_growth, without_cuts(atlas));
+}
+
+/// A ball with a snout and two ears, one face left out, all UVs one point.
+Atlas collapsed_head() {
+  Atlas atlas = shapes::cube_sphere(8);
+  for (Vec3& p : atlas.positions) {
+    const double x = p.x(), z = p.z(), front = std::exp((z - 1) / 0.1);
+    const double ears = std::exp((0.95 * std::abs(x) + 0.31 * z - 1) / 0.05);
+    p *= 1 + 0.25 * std::sin(3 * x + 1) * std::cos(4 * p.y()) + 0.4 * front + ears;
+  }
+  const std::size_t first_corner = atlas.face_offsets[1];
+  atlas.corner_vertices.erase(atlas.corner_vertices.begin(), atlas.corner_vertices.begin() + first_corner);
+  atlas.face_offsets.erase(atlas.face_offsets.begin());
+  for (int& offset : atlas.face_offsets) offset -= static_cast<int>(first_corner);
+  atlas.corner_uvs.assign(atlas.corner_vertices.size(), Vec2(0.5, 0.5));
+  return atlas;
+}
+
+TEST(Needed, AChartWithHardlyAnyBorderIsCutAllTheSame) {
+  // Any cut makes that border many times as long, which says nothing of what it costs.
+  const Atlas head = collapsed_head();
+  RefineOptions options = needed();
+  options.collapsed = Collapsed::Embed;
+  const RefineResult result = refine(head, options);
+  EXPECT_GT(result.boundary_growth, 5);
+  EXPECT_LT(result.after.distortion, 1.15);
+  options.seam_cost = 10;
+  EXPECT_GT(refine(head, options).after.distortion, 2);
 }
 
 TEST(Needed, AlongEdgesTheMeshIsKept) {

@@ -87,7 +87,7 @@ struct RefineOptions {
   /// cut count.
   std::optional<double> max_boundary_growth;
   /// With Seams::Needed and without max_distortion or max_stretch: what boundary growth costs in E_d. A cut is made where it
-  /// saves more.
+  /// saves more. Charts with less boundary than a flat disk of their area count as if they had that disk's.
   double seam_cost = 0.1;
   Effort effort = Effort::Normal;
   /// With Seams::Needed: look for all outcomes that are worth a choice (CutReport::trade_off, all squeezed to the end), not only

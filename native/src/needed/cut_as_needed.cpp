@@ -42,7 +42,7 @@ class Search {
   Search(CutTrials& trials, const RefineOptions& options, const ProgressRange& range)
       : trials_(trials),
         options_(options),
-        wish_{options},
+        wish_{options, trials.growth_weight()},
         budget_(budget_of(options.effort)),
         rest_(range) {}
 
@@ -85,7 +85,7 @@ class Search {
     for (int k = 0; k < budget_.expansions && !found_.forecast.empty() && !trials_.finishing(); ++k) {
       const double price = kPrices[k % kPrices.size()];
       const SqueezedTrial* found =
-          squeeze(cheapest([&](const Trial& trial) { return loss(trial) + price * trial.growth; }));
+          squeeze(cheapest([&](const Trial& trial) { return loss(trial) + price * wish_.growth_weight * trial.growth; }));
       if (found) expand(*found);
     }
     for (int k = 0; k < kMostPoints && !trials_.finishing(); ++k) {
@@ -99,7 +99,7 @@ class Search {
   /// The limit is not kept, or by so many seams that rectangles may need fewer.
   bool may_need_rectangles() {
     const Trial& best = found_.best(wish_).trial;
-    return !trials_.finishing() && (!wish_.is_enough(best) || best.growth > kFewOfRectangles);
+    return !trials_.finishing() && (!wish_.is_enough(best) || wish_.growth_weight * best.growth > kFewOfRectangles);
   }
 
   void look_at_rectangles() {

@@ -23,6 +23,7 @@ double excess(double distortion);
 /// What the options ask of cuts.
 struct Wish {
   const RefineOptions& options;
+  double growth_weight;  ///< CutTrials::growth_weight()
 
   bool has_limit() const { return options.max_distortion || options.max_stretch; }
   bool is_enough(const Trial& trial) const {
@@ -32,7 +33,7 @@ struct Wish {
   double above_limits(const Trial& trial) const;
   /// The excess that is likely to keep the limits, as far as one tells that was squeezed: only E_d is forecast.
   double aim(const Trial& squeezed) const;
-  double cost(const Trial& trial) const { return loss(trial) + options.seam_cost * trial.growth; }
+  double cost(const Trial& trial) const { return loss(trial) + options.seam_cost * growth_weight * trial.growth; }
 
   /// With a limit the least seams that keep it, else the least of distortion and what seams cost.
   bool is_better(const Trial& a, const Trial& b) const;

@@ -268,7 +268,7 @@ class LimitSearch {
  public:
   LimitSearch(const CutTrials& trials, const RefineOptions& options, const ProgressRange& range, Outcomes& found)
       : trials_(trials),
-        wish_{options},
+        wish_{options, trials.growth_weight()},
         most_growth_(options.max_boundary_growth.value_or(std::numeric_limits<double>::infinity())),
         budget_(budget_of(options.effort)),
         rest_(range),

@@ -50,7 +50,13 @@ CutTrials::CutTrials(const Refinement& run, const ProgressRange& range)
       shapes_(shapes_as_they_came(charts_at_density(run), whole_.atlas, whole_.mended)),
       prices_(price_sides(run.input.atlas, run.input.set, run.options)),
       boundary_(boundary_on_surface(meshes_of(whole_.atlas))) {
-  for (const Piece& piece : whole_.atlas.pieces) area_ += piece.mesh.surface.area();
+  double least_boundary = 0;
+  for (const Piece& piece : whole_.atlas.pieces) {
+    const double area = piece.mesh.surface.area();
+    area_ += area;
+    least_boundary += std::max(boundary_on_surface({piece.mesh}), 2 * std::sqrt(std::acos(-1.0) * area));
+  }
+  if (least_boundary > 0) growth_weight_ = boundary_ / least_boundary;
   prices_.resize(whole_.atlas.pieces.size());
 }
 

@@ -61,6 +61,10 @@ class CutTrials {
   /// Pieces are best placed anew with every cut, not left where they lie.
   bool places_anew() const { return whole_.atlas.pieces.size() <= kFewCharts; }
 
+  /// What growth of the boundary is multiplied with where cuts are weighed against distortion: a chart with less boundary than a
+  /// flat disk of its area cannot be flat, and counts as if it had that disk's.
+  double growth_weight() const { return growth_weight_; }
+
   /// What there is will do.
   bool finishing() const { return run_.monitor.finishing(); }
 
@@ -110,6 +114,7 @@ class CutTrials {
   ShapesAsTheyCame shapes_;
   std::vector<SidePrices> prices_;
   double boundary_;  // of all charts, on the surface
+  double growth_weight_ = 1;
   double area_ = 0;    // likewise
   double offset_ = 0;  // E_d less the objective, which other densities, shapes or weights make differ
 };
