@@ -59,6 +59,17 @@ class Needed(unittest.TestCase):
         (done,) = sys.modules[f"{MODULE}.tasks"].last_if_true()
         self.assertLessEqual(done.measures.distortion, LIMIT)
 
+    def test_the_stretch_is_within_its_limit(self):
+        obj = add_c()
+        self.assertIn("cut", self.refine(max_stretch=1.4))
+        bpy.ops.uv.atlas_refine_measure()
+        (done,) = sys.modules[f"{MODULE}.tasks"].last_if_true()
+        self.assertLessEqual(done.measures.stretch_99, 1.4 * (1 + 1e-5))
+        before = snapshot(obj)
+        told = self.refine(max_stretch=1.0001, limit_new_seams=True, most_new_seams=1.0, effort="FAST", relax=True)
+        self.assertIn("Sheet: no atlas within a stretch of 1.0001 and new seams of 1 % of the charts' borders was found", told)
+        self.assertEqual(changes(before, snapshot(obj)), [])
+
     def test_cuts_across_faces_divide_them(self):
         obj = add_c()
         faces = len(obj.data.polygons)

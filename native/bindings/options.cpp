@@ -62,6 +62,13 @@ Reader flag_reader(bool RefineOptions::*member) {
   };
 }
 
+/// None: no limit.
+Reader limit_reader(std::optional<double> RefineOptions::*member) {
+  return [=](Keywords& keywords, const py::handle& object, const std::string& keyword) {
+    if (!object.is_none()) keywords.options.*member = number(object, keyword);
+  };
+}
+
 template <typename Value>
 Reader choice_reader(Value RefineOptions::*member, std::initializer_list<std::pair<const char*, Value>> choices) {
   const std::vector<std::pair<const char*, Value>> known(choices);
@@ -108,10 +115,7 @@ void add_needed_readers(std::map<std::string, Reader>& table) {
       choice_reader<Effort>(&RefineOptions::effort, {{"fast", Effort::Fast}, {"normal", Effort::Normal}, {"best", Effort::Best}});
   table["trade_off"] = flag_reader(&RefineOptions::trade_off);
   table.merge(std::map<std::string, Reader>{
-      {"max_boundary_growth",
-       [](Keywords& k, H v, S s) {
-         if (!v.is_none()) k.options.max_boundary_growth = number(v, s);
-       }},
+      {"max_boundary_growth", limit_reader(&RefineOptions::max_boundary_growth)},
       {"seam_cost", [](Keywords& k, H v, S s) { k.options.seam_cost = number(v, s); }},
       {"point",
        [](Keywords& k, H v, S s) {
@@ -143,14 +147,8 @@ std::map<std::string, Reader> make_readers() {
        [](Keywords& k, H v, S s) {
          if (!v.is_none()) k.options.gap = Gap{number(v, s), Gap::Unit::BoxDiagonal};
        }},
-      {"max_distortion",
-       [](Keywords& k, H v, S s) {
-         if (!v.is_none()) k.options.max_distortion = number(v, s);
-       }},
-      {"max_stretch",
-       [](Keywords& k, H v, S s) {
-         if (!v.is_none()) k.options.max_stretch = number(v, s);
-       }},
+      {"max_distortion", limit_reader(&RefineOptions::max_distortion)},
+      {"max_stretch", limit_reader(&RefineOptions::max_stretch)},
       {"relax", [](Keywords& k, H v, S s) { k.options.relax = read<bool>(v, s, "True or False"); }},
       {"best_effort", [](Keywords& k, H v, S s) { k.options.best_effort = read<bool>(v, s, "True or False"); }},
       {"density",

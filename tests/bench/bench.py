@@ -10,6 +10,9 @@ exit code 1 where one crashes, hangs or is not valid.
 --needed: instead every file without seams, with rectangles, and with needed ones at two limits of distortion (needed.json); exit
 code 1 where a limit is not kept or a result is not valid.
 
+--equal-boundary: instead E_d of needed seams within +10, 20 and 40 % of boundary, of as many random necks, and of rectangles and
+needed seams at the boundary that these add; exit code 1 where a result is missing or not valid.
+
 --blender: instead the files of uv/atlas-clean inside Blender at 0.80 of a square, beside Blender's own Pack Islands (exact shapes,
 any rotation) at the same margin; blender.json, blender.md.
 
@@ -35,6 +38,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import against
+import equal_boundary
 import in_blender
 import needed
 import peers
@@ -192,6 +196,11 @@ def run_needed(arguments):
     return needed.run_needed(arguments.build, each_mesh(arguments), at, arguments.jobs, arguments.out)
 
 
+def run_equal_boundary(arguments):
+    bound = (arguments.bounds or GOALS)[0].bound
+    return equal_boundary.run_equal_boundary(arguments.build, each_mesh(arguments), bound, arguments.new_options)
+
+
 def run_profiles(arguments):
     asked = [(folder, path, goals_of(arguments, folder)) for folder, path in each_mesh(arguments)]
     return profiles.run_profiles(arguments.build, asked, arguments.jobs, arguments.out)
@@ -233,6 +242,7 @@ def parsed():
     )
     parser.add_argument("--new-options", type=options, default=(), help="further options of this tree's program")
     parser.add_argument("--needed", action="store_true", help="instead: seams none, rectangles, and needed within limits")
+    parser.add_argument("--equal-boundary", action="store_true", help="instead: needed seams beside random necks and rectangles")
     parser.add_argument("--profile", action="store_true", help="instead: where the time goes [at 0.8, both roads]")
     parser.add_argument("--peers", action="store_true", help="instead: beside Blender's Pack Islands and xatlas")
     parser.add_argument("--blender", action="store_true", help="instead: inside Blender, beside its own Pack Islands")
@@ -265,6 +275,8 @@ def run_asked(arguments):
         return run_real(arguments)
     if arguments.needed:
         return run_needed(arguments)
+    if arguments.equal_boundary:
+        return run_equal_boundary(arguments)
     if arguments.profile:
         return run_profiles(arguments)
     if arguments.peers:
@@ -280,7 +292,7 @@ def main():
     arguments = parsed()
     try:
         arguments.found = {} if arguments.bad_input else selected_meshes(arguments)
-        targets = [trees.PYTHON] if arguments.blender else []
+        targets = [trees.PYTHON] * arguments.blender + [equal_boundary.RANDOM] * arguments.equal_boundary
         arguments.build = arguments.build.resolve() if arguments.build else trees.build_own(ROOT, *targets)
         trees.require_built(arguments.build, trees.PROGRAM, *([] if arguments.real else [trees.HELPER]))
         return 1 if run_asked(arguments) else 0

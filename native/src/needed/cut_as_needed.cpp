@@ -40,11 +40,7 @@ Budget budget_of(Effort effort) {
 class Search {
  public:
   Search(CutTrials& trials, const RefineOptions& options, const ProgressRange& range)
-      : trials_(trials),
-        options_(options),
-        wish_{options, trials.growth_weight()},
-        budget_(budget_of(options.effort)),
-        rest_(range) {}
+      : trials_(trials), options_(options), rest_(range) {}
 
   SqueezedTrial run() {
     found_.squeezed.push_back(trials_.without_cuts(step()));
@@ -154,8 +150,8 @@ class Search {
 
   CutTrials& trials_;
   const RefineOptions& options_;
-  Wish wish_;
-  Budget budget_;
+  Wish wish_{options_, trials_.growth_weight()};
+  Budget budget_ = budget_of(options_.effort);
   ProgressRange rest_;
   Outcomes found_;
   int expansions_ = 0;

@@ -145,7 +145,6 @@ Prospect taken_from(std::vector<Prospect>& prospects, std::vector<Prospect>::ite
 class Frontier {
  public:
   explicit Frontier(const CutTrials& trials) : trials_(trials) {}
-
   /// What to come to, as excess.
   void aim_at(double limit) { limit_ = limit; }
 
@@ -269,7 +268,6 @@ class LimitSearch {
   LimitSearch(const CutTrials& trials, const RefineOptions& options, const ProgressRange& range, Outcomes& found)
       : trials_(trials),
         wish_{options, trials.growth_weight()},
-        most_growth_(options.max_boundary_growth.value_or(std::numeric_limits<double>::infinity())),
         budget_(budget_of(options.effort)),
         rest_(range),
         found_(found),
@@ -364,7 +362,7 @@ class LimitSearch {
 
   const CutTrials& trials_;
   Wish wish_;
-  double most_growth_;
+  double most_growth_ = wish_.options.max_boundary_growth.value_or(std::numeric_limits<double>::infinity());
   Budget budget_;
   ProgressRange rest_;
   Outcomes& found_;
