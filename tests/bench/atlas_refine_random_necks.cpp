@@ -56,7 +56,7 @@ Json drawn(CutTrials& trials, const SqueezedTrial& whole, double growth, int cut
 void run(char** arguments) {
   const auto file = io::read_mesh_file(arguments[1]);
   const RefineOptions options{.pe_bound = std::atof(arguments[2]), .seams = Seams::Needed, .threads = 1};
-  const InputAtlas input = read_atlas(file->atlas(), options.box_aspect);
+  const InputAtlas input = read_atlas(file->atlas(), options);
   Monitor monitor;
   Journal journal(monitor, nullptr, options.box_aspect);
   const Refinement refinement{input, options, monitor, journal, 1, options};
