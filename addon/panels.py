@@ -112,10 +112,11 @@ def _draw_density(layout, context, densities):
     for name, density in densities:
         for line in density_lines(density, name if len(densities) > 1 else ""):
             _tell(layout, context, line)
-    if not densities:
+    by_size = [density for _, density in densities if not density.of_image]  # an image's size is its own
+    if not by_size:
         return
-    density = max((density for _, density in densities), key=lambda one: one.needed_px)
-    if density.size_to_take and not density.of_image:
+    density = max(by_size, key=lambda one: one.needed_px)
+    if density.size_to_take:
         button = layout.operator("wm.context_set_int", text=f"Set Texture Size to {density.size_to_take}")
         button.data_path, button.value = "scene.atlas_refine.texture_size", density.size_to_take
 

@@ -117,7 +117,8 @@ class Run:
             self._reading.stop()
         if self.is_solving:
             self.cancelled = True
-            self.atlases[self._at].job.cancel()
+            if self.atlases[self._at].job is not None:  # else its start has failed
+                self.atlases[self._at].job.cancel()
 
     def keep_best(self):
         """Ends with the best valid atlas so far; those that were not begun stay as they are."""
@@ -146,7 +147,7 @@ class Run:
             try:
                 out.append((yield from atlas.write(atlas.job.result())))
             except FAILURES as error:
-                self.problems.append((atlas.title, _why(error)))
+                self.problems.append((atlas.title, why(error)))
                 self.errors.append(error)
         if out:
             show(out)
@@ -168,16 +169,18 @@ def read_atlases(context, options, problems):
         except NothingToDoError as error:
             idle.append((atlas.title, str(error)))
         except FAILURES as error:
-            problems.append((atlas.title, _why(error)))
+            problems.append((atlas.title, why(error)))
     # Of several objects those without a selection are simply not meant.
     if not out and not problems:
         problems += idle
+    if not out and usable:
+        problems += without_map
     if out:
         out[0].notes += [f"left out: {titled(name, reason)}" for name, reason in without_map]
     return out
 
 
-def _why(error):
+def why(error):
     """Python's own words for what Blender no longer has are not for artists."""
     return "the object or its mesh is gone; nothing was written" if isinstance(error, ReferenceError) else str(error)
 
@@ -206,7 +209,7 @@ def measure_all(context, options, problems):
         try:
             out += atlas.measure()
         except FAILURES as error:
-            problems.append((atlas.title, str(error)))
+            problems.append((atlas.title, why(error)))
     if out:
         show(out)
     return out
@@ -260,8 +263,8 @@ def stop_running():
     """Ends the run, if there is one, and waits for its thread: before a file is loaded and on unregister."""
     global running
     if running is not None:
-        running.stop()
-        running = None
+        ended, running = running, None
+        ended.stop()
 
 
 def _doubt():

@@ -74,7 +74,9 @@ class Request:
                 density = replace(density, after=pixels_per_metre(after[k], size, areas[k], metres))
                 if k in boxes:
                     box = boxes[k].box_width * size[0], boxes[k].box_height * size[1]
-                    density = replace(density, box_px=box, spare=max(1.0, options.pe_bound / boxes[k].pe_fixed_aspect))
+                    share = boxes[k].pe_fixed_aspect  # 0 where all charts lie beside the texture
+                    spare = max(1.0, options.pe_bound / share) if share > 0 else 1.0
+                    density = replace(density, box_px=box, spare=spare)
             yield density
 
     def _in_boxes(self, values, groups=None):

@@ -126,7 +126,14 @@ bool is_only_scaled(const InputAtlas& input, const RefineOptions& options) {
 }
 
 Solution as_it_lies(const InputAtlas& input, const RefineOptions& options) {
-  return {.atlas = whole_atlas(input.set.charts), .gap = own_gap(input, options)};
+  Solution out{.atlas = whole_atlas(input.set.charts), .gap = own_gap(input, options)};
+  if (!options.gap && options.in_texture) {
+    constexpr double kRounding = 0.999;
+    const double length = growth_asked(input, options) * gap_between_charts(input.set.charts, freedom_of(input.set, options));
+    const double most = kRounding * length / Vec2(options.box_aspect, 1).norm();
+    out.gap.value = spare_for_size(options) * std::min(out.gap.value, most);
+  }
+  return out;
 }
 
 /// The road that cuts; nothing where charts are better left whole, which the journal then says.
@@ -165,6 +172,20 @@ CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
   if (options.seams == Seams::Needed) return certified(run, cut_as_needed(run, range.part(0, 0.96)), range);
   const Refinement whole{run.input, options, run.monitor, run.journal, run.threads, run.asked};
   return certified(whole, refine_whole(whole, range.part(0, 0.96)), range);
+}
+
+/// Most of the surface may lose stretch while E_d rises, and the other way round, so the engine is held back by a limit of
+/// stretch only where the best without it is above.
+CertifiedSolution solve_within_stretch(const Refinement& run, const ProgressRange& range) {
+  if (!run.options.max_stretch || run.options.seams == Seams::Needed) return solve(run, range);
+  RefineOptions options = run.options;
+  options.max_stretch.reset();
+  const Journal::Mark before = run.journal.mark();
+  const Refinement free{run.input, options, run.monitor, run.journal, run.threads, run.asked};
+  CertifiedSolution result = solve(free, range.part(0, 0.5));
+  if (within_limits(run.asked, result.atlas.after)) return result;
+  run.journal.back_to(before);
+  return solve(run, range.part(0.5, 1));
 }
 
 /// Empty where there are none.
@@ -313,8 +334,8 @@ Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const 
 
   const Refinement run{input, within, monitor, journal, resolve_threads(options.threads), options};
   const Journal::Mark before = journal.mark();
-  CertifiedSolution result =
-      holds_but_size && is_only_scaled(input, options) ? certified(run, as_it_lies(input, options), range) : solve(run, range);
+  CertifiedSolution result = holds_but_size && is_only_scaled(input, options) ? certified(run, as_it_lies(input, options), range)
+                                                                              : solve_within_stretch(run, range);
   if (result.solution.ended == Ended::Stopped && !better_than_input(input, freedom, options, within, result.atlas.after)) {
     journal.back_to(before);
     return stopped(input, options, holds, journal);

@@ -124,7 +124,7 @@ Attempt cut_across_faces(const Refinement& run, const CutPlan& plan, const Progr
   run.journal.show("packed", pieces.packed);
   if (!pieces.failure.empty()) return {.failure = std::move(pieces.failure)};
   const ReduceResult& reduced = pieces.result;
-  if (!reduced.within_limit) return {.failure = "cut, their distortion stays above the largest allowed"};
+  if (!reduced.within_limit) return {.failure = "cut, they stay above the largest distortion or stretch allowed"};
   if (!reduced.reached) return {.failure = "cut, they do not reach the bound"};
   out.atlas = std::move(pieces.atlas);
   out.gap = plan.layout.gap;

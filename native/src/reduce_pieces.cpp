@@ -160,30 +160,37 @@ struct FirstReduced {
   bool carried = false;  ///< over from coarse charts; `result` is theirs
 };
 
-/// In each layout on the same coarse charts; the best end carried over to the pieces of `at`, which lie as in the first.
-void reduce_coarsely(const Refinement& run, const CutPlan& plan, const std::vector<Layout>& layouts, const Reduction& reduction,
-                     const CutAtlas& cut, FirstReduced& at) {
+/// Packed in several ways on the same coarse charts; the best end that can be is carried over to the pieces of `at`, which lie as
+/// in the plan's own layout.
+void reduce_coarsely(const Refinement& run, const CutPlan& plan, const Reduction& reduction, const CutAtlas& cut,
+                     FirstReduced& at) {
   const auto pieces = coarse_pieces(run, plan, at.pieces.atlas);
   if (!pieces) return;
-  const int count = static_cast<int>(layouts.size());
+  std::vector<std::vector<Chart>> packed = {at.pieces.packed};
+  std::vector<std::vector<Chart>> starts = {pieces->fine};
+  for (const Layout& layout : packed_otherwise(plan.layout, kOtherWays, layout_options(run))) {
+    CutAtlas placed = cut;
+    packed.push_back(place(run, layout, placed));
+    starts.push_back(pieces->fine);
+    for (std::size_t p = 0; p < placed.pieces.size(); ++p) starts.back()[p].uvs = std::move(placed.pieces[p].mesh.uvs);
+  }
+  const int count = static_cast<int>(starts.size());
   std::vector<ReduceResult> ends(count);
   parallel_ranges(count, run.threads, 1, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      std::vector<Chart> start = pieces->fine;
-      if (k > 0) {
-        CutAtlas placed = cut;
-        place(run, layouts[k], placed);
-        for (std::size_t p = 0; p < start.size(); ++p) start[p].uvs = std::move(placed.pieces[p].mesh.uvs);
-      }
-      ends[k] = reduce(run, *pieces, start, reduction, std::max(1, run.threads / count));
-    }
+    for (int k = begin; k < end; ++k) ends[k] = reduce(run, *pieces, starts[k], reduction, std::max(1, run.threads / count));
   });
-  for (const ReduceResult& end : ends) run.journal.iterations += end.iterations;
-  const auto best = std::min_element(ends.begin(), ends.end(), [](const ReduceResult& a, const ReduceResult& b) {
-    return a.holds() != b.holds() ? a.holds() : a.energy < b.energy;
-  });
-  at.carried = carry_over(*pieces, *best, at.pieces.atlas);
-  at.pieces.result = std::move(*best);
+  std::vector<int> order;
+  for (int k = 0; k < count; ++k) {
+    run.journal.iterations += ends[k].iterations;
+    if (ends[k].holds()) order.push_back(k);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return ends[a].energy < ends[b].energy; });
+  const auto best =
+      std::find_if(order.begin(), order.end(), [&](int k) { return carry_over(*pieces, ends[k], at.pieces.atlas); });
+  if (best == order.end()) return;
+  at.carried = true;
+  at.pieces.packed = std::move(packed[*best]);
+  at.pieces.result = std::move(ends[*best]);
 }
 
 FirstReduced placed_in(const Refinement& run, const Layout& layout, CutAtlas cut) {
@@ -198,19 +205,17 @@ FirstReduced placed_in(const Refinement& run, const Layout& layout, CutAtlas cut
 FirstReduced first_reduced(const Refinement& run, const CutPlan& plan, const CutAtlas& cut) {
   Reduction reduction{.gap = plan.layout.gap, .negligible = kRoughChange, .enough = plan.enough};
   reduction.gap.value *= kFirstGap;
-  const std::size_t triangles = triangle_count(cut);
-  const std::size_t ways = triangles < kMany ? std::min(kMostWays, kReduced / (triangles + 1)) : kOtherWays;
-  std::vector<Layout> layouts = packed_otherwise(plan.layout, static_cast<int>(ways), layout_options(run));
-  layouts.insert(layouts.begin(), plan.layout);
   FirstReduced best = placed_in(run, plan.layout, cut);
   if (!best.pieces.failure.empty()) return best;
-  reduce_coarsely(run, plan, layouts, reduction, cut, best);
+  reduce_coarsely(run, plan, reduction, cut, best);
   if (best.carried) return best;
   reduction.negligible = kFirstChange;
   best.pieces.result = reduce(run, reduction, best.pieces.atlas);
+  const std::size_t triangles = triangle_count(cut);
   if (triangles >= kMany || !best.pieces.result.holds()) return best;
-  for (std::size_t k = 1; k < layouts.size(); ++k) {
-    FirstReduced trial = placed_in(run, layouts[k], cut);
+  const int ways = static_cast<int>(std::min(kMostWays, kReduced / (triangles + 1)));
+  for (const Layout& layout : packed_otherwise(plan.layout, ways, layout_options(run))) {
+    FirstReduced trial = placed_in(run, layout, cut);
     if (!trial.pieces.failure.empty()) continue;
     trial.pieces.result = reduce(run, reduction, trial.pieces.atlas);
     if (trial.pieces.result.holds() && trial.pieces.result.energy < best.pieces.result.energy) best = std::move(trial);

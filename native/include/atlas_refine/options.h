@@ -81,7 +81,8 @@ struct RefineOptions {
   /// Largest E_d allowed, >= 1; above it the call throws, with best_effort too, but with Seams::Needed.
   std::optional<double> max_distortion;
   /// Largest Measures::stretch_99 allowed, >= 1, in the same way: 99 % of the surface may be stretched or shrunk by so much. The
-  /// objective stays E_d, whose optimum need not have the least stretch: this is what results are judged by.
+  /// objective stays E_d, whose optimum need not have the least stretch: where that exceeds this, charts climb only as far as it
+  /// allows.
   std::optional<double> max_stretch;
   /// With Seams::Needed: how much boundary the cuts may add, as a fraction of that of all charts, on the surface; both sides of a
   /// cut count.

@@ -65,7 +65,7 @@ std::string reason(const Gap& gap, ReduceStatus status) {
     case ReduceStatus::TooExpensive:
       return std::string(text) + "the bound costs too much distortion";
     case ReduceStatus::TooDistorted:
-      return std::string(text) + "the largest distortion is exceeded";
+      return std::string(text) + "a limit of distortion is exceeded";
     case ReduceStatus::OutOfTime:
       return std::string(text) + "the bound was not reached in time";
     default:
