@@ -69,6 +69,36 @@ TEST(RefineRectangles, OfManyTrianglesCoarseChartsAreReducedFirst) {
   EXPECT_LT(many.after.distortion, few.after.distortion + 0.002);
   options.threads = 3;
   EXPECT_TRUE(same_bits(refine(fine, options).corner_uvs, many.corner_uvs));
+  options.max_distortion = 100;  // no limit, but with one all triangles are reduced at once
+  const RefineResult direct = refine_soundly(fine, options);
+  EXPECT_FALSE(same_bits(direct.corner_uvs, many.corner_uvs));
+  EXPECT_LT(many.after.distortion, direct.after.distortion + 1e-4);
+}
+
+/// UVs of the pieces before they are reduced.
+std::vector<Vec2> packed_uvs(const Atlas& atlas, const RefineOptions& options) {
+  struct : DebugSink {
+    void receive(const AtlasSnapshot& snapshot) override {
+      if (snapshot.stage == "packed") uvs = snapshot.uvs;
+    }
+    std::vector<Vec2> uvs;
+  } sink;
+  refine(atlas, options, {}, &sink);
+  return sink.uvs;
+}
+
+TEST(RefineRectangles, OfSeveralPackingsTheBestIsKept) {
+  // Of the second polygon another packing than the layout's turns out to be the best.
+  for (const int seed : {1, 5}) {
+    const Atlas atlas = shapes::mesh(shapes::random_star_polygon(seed), 0.014);
+    ASSERT_GT(atlas.face_count(), 3000);
+    RefineOptions options = rectangles();
+    const std::vector<Vec2> best = packed_uvs(atlas, options);
+    const double distortion = refine(atlas, options).after.distortion;
+    options.max_distortion = 100;  // with a limit only the layout's is looked at
+    EXPECT_EQ(best == packed_uvs(atlas, options), seed == 1);
+    EXPECT_LT(distortion, refine(atlas, options).after.distortion + 1e-4);
+  }
 }
 
 TEST(RefineRectangles, EveryAtlasReachesTheBound) {

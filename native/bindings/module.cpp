@@ -22,10 +22,8 @@ namespace {
 
 const std::string kRefineKeywords =
     "pe_bound seams box_aspect in_texture gap gap_unit max_distortion max_stretch max_boundary_growth seam_cost effort trade_off "
-    "point relax "
-    "best_effort density uv_density stored sigma candidates omega "
-    "until_input "
-    "reference importance seed threads name cut open_closed stacks collapsed rotate align_axes triangulate groups group_origins "
+    "point relax best_effort density uv_density stored sigma candidates omega until_input reference importance seed threads name "
+    "cut open_closed stacks collapsed rotate align_axes triangulate groups group_origins "
     "group_aspects group_gaps group_densities group_names keep_shape locked no_seam prefer_seam triangles";
 
 constexpr const char* kArraysDoc = R"(
@@ -40,8 +38,8 @@ constexpr const char* kRefineOptionsDoc = R"(
 pe_bound         packing efficiency to reach, in (0, 1); default 0.8
 seams            "none" (default): charts bend, no seam is added; "needed": they bend, and are cut where their distortion is
                  above max_distortion or max_stretch or, without these, where a cut saves what it costs (seam_cost);
-                 "rectangles": charts become axis-aligned and are cut into rectangles (Liu et al. 2019). Where faces are divided result.cut is the
-                 mesh that corner_uvs belong to
+                 "rectangles": charts become axis-aligned and are cut into rectangles (Liu et al. 2019). Where faces are divided
+                 result.cut is the mesh that corner_uvs belong to
 box_aspect       width / height of the texture that [0, 1]^2 stands for, in [0.01, 100]; 0 (default) = a free box, 1 = square.
                  All lengths are taken with u stretched by it
 in_texture       the box is the texture itself (square where box_aspect is 0), in the input too: pe_fixed_aspect is what charts cover
@@ -51,10 +49,11 @@ gap              smallest distance between charts as a fraction of gap_unit, har
                  last per cent costs at most 3 % of E_d; result.warnings tells why larger ones were given up
 gap_unit         "diagonal" of the box (default) or its "long_side" (N texels of a texture of S: N / S)
 max_distortion   largest E_d allowed, on the surface (1 = isometric), or None; missed it raises, with best_effort too
-max_stretch      largest stretch allowed of 99 % of the surface (Measures.stretch_99), or None; in the same way. What is reduced stays
-                 E_d: results are judged by it
+max_stretch      largest stretch allowed of 99 % of the surface (Measures.stretch_99), or None; in the same way. What is
+                 reduced stays E_d; where that alone exceeds the limit, charts climb only as far as it allows
 max_boundary_growth  of "needed": how much boundary cuts may add, as a fraction of that of all charts on the surface, or None
-seam_cost        of "needed" without max_distortion or max_stretch: the E_d that a cut must save for each unit of boundary growth; default 0.1
+seam_cost        of "needed" without max_distortion or max_stretch: the E_d that a cut must save for each unit of boundary
+                 growth; default 0.1
 effort           of "needed": "fast", "normal" (default) or "best": the more cuts are tried, the fewer seams
 trade_off        of "needed": look for all outcomes that are worth a choice between seams and distortion (result.cuts.trade_off)
 point            with trade_off: which of them is wanted, from 0; None (default) = what the limits ask for

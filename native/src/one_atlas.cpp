@@ -34,8 +34,7 @@ double growth_asked(const InputAtlas& input, const RefineOptions& options) {
 }
 
 bool has_density(const InputAtlas& input, const RefineOptions& options) {
-  constexpr double kRounding = 1e-5;  // of UVs in single precision
-  return std::abs(growth_asked(input, options) - 1) < kRounding;
+  return std::abs(growth_asked(input, options) - 1) < kSizeRounding;
 }
 
 /// Valid and, where the box is the texture, within its border: only then PE tells how good it is.

@@ -292,9 +292,10 @@ def main():
     arguments = parsed()
     try:
         arguments.found = {} if arguments.bad_input else selected_meshes(arguments)
-        targets = [trees.PYTHON] * arguments.blender + [equal_boundary.RANDOM] * arguments.equal_boundary
+        random = [equal_boundary.RANDOM] * arguments.equal_boundary
+        targets = [trees.PYTHON] * arguments.blender + random
         arguments.build = arguments.build.resolve() if arguments.build else trees.build_own(ROOT, *targets)
-        trees.require_built(arguments.build, trees.PROGRAM, *([] if arguments.real else [trees.HELPER]))
+        trees.require_built(arguments.build, trees.PROGRAM, *([] if arguments.real else [trees.HELPER]), *random)
         return 1 if run_asked(arguments) else 0
     except (NoMeshesError, trees.TreeError) as why:
         sys.exit(f"bench: {why}")

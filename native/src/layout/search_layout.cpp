@@ -275,32 +275,6 @@ Layout search_round(const Round& round, const LayoutOptions& options, Monitor& m
   return layout_of(best, round);
 }
 
-}  // namespace
-
-Layout search_layout(const std::vector<AxisAlignedChart>& aligned, const std::vector<Chart>& sources,
-                     const LayoutOptions& options, Monitor& monitor) {
-  const PhaseScope scope(Phase::Layout);
-  const std::vector<Decomposition> boxes = boxes_of(aligned, sources);
-  Layout best;
-  for (std::size_t g = 0; g < options.gaps.size(); ++g) {
-    Round round{static_cast<int>(g), options.gaps[g], 0, {}, boxes, {}};
-    add_quad_meshes(round, aligned, sources, options.prices);
-    const Layout layout = search_round(round, options, monitor);
-    if (best.pieces.empty() || layout.pe > best.pe) best = layout;
-    if (best.pe >= pe_target(options) || highest_pe(round) < pe_target(options)) return best;
-  }
-  for (const int extra : kExtraCorners) {
-    Round round{extra, options.gaps.back(), extra, {}, boxes, {}};
-    add_quad_meshes(round, aligned, sources, options.prices);
-    const Layout layout = search_round(round, options, monitor);
-    if (layout.pe > best.pe) best = layout;
-    if (best.pe >= pe_target(options)) return best;
-  }
-  return best;
-}
-
-namespace {
-
 /// True where the same pieces lie in the same places, up to reflections of the box and, where it is free, of its axes: what the
 /// pieces press against is the same.
 bool packed_alike(const Layout& a, const Layout& b, bool free_box) {
@@ -330,6 +304,28 @@ bool packed_alike(const Layout& a, const Layout& b, bool free_box) {
 }
 
 }  // namespace
+
+Layout search_layout(const std::vector<AxisAlignedChart>& aligned, const std::vector<Chart>& sources,
+                     const LayoutOptions& options, Monitor& monitor) {
+  const PhaseScope scope(Phase::Layout);
+  const std::vector<Decomposition> boxes = boxes_of(aligned, sources);
+  Layout best;
+  for (std::size_t g = 0; g < options.gaps.size(); ++g) {
+    Round round{static_cast<int>(g), options.gaps[g], 0, {}, boxes, {}};
+    add_quad_meshes(round, aligned, sources, options.prices);
+    const Layout layout = search_round(round, options, monitor);
+    if (best.pieces.empty() || layout.pe > best.pe) best = layout;
+    if (best.pe >= pe_target(options) || highest_pe(round) < pe_target(options)) return best;
+  }
+  for (const int extra : kExtraCorners) {
+    Round round{extra, options.gaps.back(), extra, {}, boxes, {}};
+    add_quad_meshes(round, aligned, sources, options.prices);
+    const Layout layout = search_round(round, options, monitor);
+    if (layout.pe > best.pe) best = layout;
+    if (best.pe >= pe_target(options)) return best;
+  }
+  return best;
+}
 
 std::vector<Layout> packed_otherwise(const Layout& layout, int ways, const LayoutOptions& options) {
   const PhaseScope scope(Phase::Layout);

@@ -127,6 +127,17 @@ void set_masses(ReduceModel& model) {
   if (model.has_box) model.masses.back() = 1;
 }
 
+DirichletSums surface_sums(const std::vector<Chart>& charts, const ReduceModel& model, const std::vector<Vec2>& x) {
+  std::vector<RestTriangle> surface;  // not kept: it is large, and asked for where E_d is limited only
+  surface.reserve(model.surface_triangles.size());
+  for (const Chart& chart : charts) {
+    for_each_element(chart, [&](const Triangle&, const RestTriangle& shape, double share, int) {
+      surface.push_back({shape.inverse_edges, share * shape.area});
+    });
+  }
+  return dirichlet_sums(surface, model.surface_triangles, x);
+}
+
 }  // namespace
 
 ReduceModel make_model(const ReduceProblem& problem) {
@@ -199,21 +210,6 @@ double tight_pe(const ReduceModel& model, const ReduceState& state) {
 double model_energy(const ReduceModel& model, const std::vector<Vec2>& x) {
   return model.held_energy + dirichlet_energy(model.objective, model.triangles, x);
 }
-
-namespace {
-
-DirichletSums surface_sums(const std::vector<Chart>& charts, const ReduceModel& model, const std::vector<Vec2>& x) {
-  std::vector<RestTriangle> surface;  // not kept: it is large, and asked for where E_d is limited only
-  surface.reserve(model.surface_triangles.size());
-  for (const Chart& chart : charts) {
-    for_each_element(chart, [&](const Triangle&, const RestTriangle& shape, double share, int) {
-      surface.push_back({shape.inverse_edges, share * shape.area});
-    });
-  }
-  return dirichlet_sums(surface, model.surface_triangles, x);
-}
-
-}  // namespace
 
 double surface_distortion(const std::vector<Chart>& charts, const ReduceModel& model, const std::vector<Vec2>& x) {
   return surface_sums(charts, model, x).best_energy();

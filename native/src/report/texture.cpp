@@ -29,7 +29,6 @@ double border_of(const RefineOptions& options) {
 }
 
 RefineOptions settle_density(RefineOptions options, const std::vector<Chart>& charts) {
-  constexpr double kRounding = 1e-5;  // of UVs in single precision
   constexpr double kMostGap = 0.1;
   if (options.uv_density == 0) return options;
   double area = 0;
@@ -41,7 +40,7 @@ RefineOptions settle_density(RefineOptions options, const std::vector<Chart>& ch
   }
   const double share = area / options.box_aspect;
   if (share <= options.pe_bound) {
-    options.pe_bound = share * (1 - kRounding);
+    options.pe_bound = share * (1 - kSizeRounding);
   } else {
     options.uv_density = 0;
   }

@@ -19,6 +19,9 @@ bool is_in_texture(const Freedoms& freedom, const RefineOptions& options);
 double border_of(const RefineOptions& options);
 inline constexpr double kBorderSpare = 1e-6;
 
+/// Relative, of a size that UVs in single precision are to have.
+inline constexpr double kSizeRounding = 1e-5;
+
 /// Charts that are to have `uv_density`. In a texture: what they cover of it so is the bound; where that is more than the bound
 /// they fill it, and have the size that comes of it. In a free box: a gap in parts of the long side is meant of [0, 1]^2, and
 /// becomes one of the box, as if that were square and full; so it is at least what is asked.
