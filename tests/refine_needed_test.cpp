@@ -98,6 +98,7 @@ TEST(Needed, WhereNoCutsKeepTheLimitRectanglesDo) {
   const Atlas comb = shapes::mesh(shapes::comb(), 0.1, 0), u = shapes::mesh(shapes::u_shape(), 0.1, 0);
   RefineOptions options = needed_within(1.0001);
   options.box_aspect = 1;
+  options.pe_bound = 0.87;
   const RefineResult result = refine(shapes::combine({comb, u, u}), options);  // the second U stays on the first
   EXPECT_TRUE(result.bound_met);
   EXPECT_LE(result.after.distortion, 1.0001);
@@ -117,6 +118,18 @@ TEST(Needed, WithoutALimitCutsAreMadeWhereTheyPay) {
   const RefineResult cheap = refine_soundly(atlas, options);
   EXPECT_GT(cheap.added_seams, 0);
   EXPECT_LT(cheap.after.distortion + options.seam_cost * cheap.boundary_growth, without_cuts(atlas));
+}
+
+TEST(Needed, WhereSeamsCostNothingTheBudgetIsSpentOnTheLeastDistortion) {
+  const Atlas atlas = flat_star();
+  RefineOptions options = needed();
+  options.max_boundary_growth = 0.3;
+  options.seam_cost = 0;
+  const RefineResult result = refine_soundly(atlas, options);
+  options.best_effort = true;
+  options.max_distortion = 1;
+  EXPECT_EQ(result.after.distortion, refine(atlas, options).after.distortion);
+  EXPECT_LT(result.after.distortion, 1 + 0.7 * (without_cuts(atlas) - 1));
 }
 
 /// A ball with a snout and two ears, one face left out, all UVs one point.

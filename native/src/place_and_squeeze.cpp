@@ -274,7 +274,7 @@ std::optional<Forecast> forecast_anew(const Refinement& run, const CutAtlas& atl
   const auto placer = [&](const std::vector<Chart>& charts, const Objective& objective) {
     const std::vector<Chart> shapes =
         any_fixed(freedom) ? charts : relaxed_apart(charts, objective, gaps.front(), freedom, run.monitor);
-    return place(run, shapes, freedom, gaps.front(), kNearly * run.options.pe_bound, PackSearch::Rough);
+    return place(run, shapes, freedom, gaps.front(), kNearly * run.options.pe_bound, PackSearch::Fair);
   };
   Forecast out = forecast_squeeze(pieces, goal_of(run.input.set.charts, atlas, run.options), placer,
                                   squeeze_options(run, freedom, gaps), run.monitor);

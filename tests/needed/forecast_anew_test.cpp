@@ -1,7 +1,9 @@
 // What charts are forecast to come to where they are placed anew.
 #include <gtest/gtest.h>
 
+#include "atlas_refine/refine.h"
 #include "place_and_squeeze.h"
+#include "shapes.h"
 #include "sheets.h"
 #include "whole.h"
 
@@ -18,6 +20,20 @@ TEST(ForecastAnew, WhatWasBentIsPlacedAsItWillBe) {
   const auto forecast = forecast_anew(run, whole_charts(run, ProgressRange(0, 1)).atlas);
   ASSERT_TRUE(forecast.has_value());
   EXPECT_LT(forecast->end.outcome.energy, 1.001);
+}
+
+TEST(ForecastAnew, StretchIsToldAsWell) {
+  const Atlas atlas = shapes::mesh(shapes::s_shape(), 0.1, 0);
+  const InputAtlas input = read_atlas(atlas, {});
+  Monitor monitor;
+  Journal journal(monitor, nullptr, 0);
+  const RefineOptions options;
+  const Refinement run{input, options, monitor, journal, 1, options};
+  const auto forecast = forecast_anew(run, whole_charts(run, ProgressRange(0, 1)).atlas);
+  ASSERT_TRUE(forecast.has_value());
+  const double stretch = refine(atlas, options).after.stretch_99;
+  EXPECT_GT(stretch, 1.05);
+  EXPECT_NEAR(forecast->stretch - 1, stretch - 1, 0.5 * (stretch - 1));
 }
 
 }  // namespace

@@ -111,6 +111,20 @@ TEST(PackCharts, RoughlyTheGapIsKeptAsWell) {
   pack(named_charts(), {.gap = 0.01, .target_pe = 0.9, .search = PackSearch::Rough});
 }
 
+TEST(PackCharts, FairlyTheBestRoughOneIsMadeSmaller) {
+  double rough = 0, fair = 0;
+  for (int seed = 1; seed <= 6; ++seed) {
+    const Charts charts = random_charts(4 + seed, 100 * seed);
+    const double gap = 0.01 * std::sqrt(charts.area);
+    const double one = pack(charts, {.gap = gap, .search = PackSearch::Rough}).pe;
+    const double other = pack(charts, {.gap = gap, .search = PackSearch::Fair}).pe;
+    EXPECT_GE(other, one) << "seed " << seed;
+    rough += one;
+    fair += other;
+  }
+  EXPECT_GT(fair, 1.02 * rough);
+}
+
 TEST(PackCharts, WithoutAGapChartsStillDoNotTouch) { pack(named_charts(), {.gap = 0}); }
 
 TEST(PackCharts, RandomChartsKeepTheGap) {

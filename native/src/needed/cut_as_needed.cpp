@@ -37,6 +37,12 @@ Budget budget_of(Effort effort) {
   return {};
 }
 
+/// Where seams cost nothing the least distortion is looked for that the budget of seams allows.
+RefineOptions with_limit(RefineOptions options) {
+  if (!options.max_distortion && !options.max_stretch) options.max_distortion = 1;
+  return options;
+}
+
 class Search {
  public:
   Search(CutTrials& trials, const RefineOptions& options, const ProgressRange& range)
@@ -46,9 +52,9 @@ class Search {
     found_.squeezed.push_back(trials_.without_cuts(step()));
     if (options_.trade_off) {
       look_for_all();
-    } else if (wish_.has_limit()) {
-      cut_to_limit(trials_, options_, step(), found_);
-      if (may_need_rectangles()) look_at_rectangles();
+    } else if (wish_.has_limit() || options_.seam_cost == 0) {
+      cut_to_limit(trials_, with_limit(options_), step(), found_);
+      if (wish_.has_limit() && may_need_rectangles()) look_at_rectangles();
     } else {
       look_for_best();
     }
@@ -125,7 +131,7 @@ class Search {
   /// Forecasts what one more cut comes to, and what one cut less does.
   void expand(const SqueezedTrial& present) {
     ++expansions_;
-    for (auto& trial : trials_.forecasts(neighbours(present.trial), &present, most_growth(), step())) {
+    for (auto& trial : trials_.forecasts(neighbours(present.trial), &present, {}, most_growth(), step())) {
       if (!trial) continue;
       ++found_.tried;
       const double gain = loss(present.trial) - loss(*trial);

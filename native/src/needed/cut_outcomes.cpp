@@ -9,8 +9,6 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kLag = 0.4;  // as excess: the first cuts take more of E_d away than of the worst stretch
-
 bool same(const Trial& a, const Trial& b) { return a.growth == b.growth && a.distortion == b.distortion; }
 
 /// The same of stretch: E_d - 1 goes with its square.
@@ -22,20 +20,17 @@ double loss(const Trial& trial) { return std::min(trial.distortion, kHopeless); 
 
 double excess(double distortion) { return std::log(std::clamp(distortion - 1, kLeastExcess, kHopeless - 1)); }
 
-double Wish::above_limits(const Trial& trial) const {
+double Wish::above_limits(double distortion, double stretch) const {
   const double none = -std::numeric_limits<double>::infinity();
-  const std::optional<double>&distortion = options.max_distortion, &stretch = options.max_stretch;
-  return std::max(distortion ? excess(trial.distortion) - excess(*distortion) : none,
-                  stretch ? excess_of_stretch(trial.stretch) - excess_of_stretch(*stretch) : none);
+  return std::max(options.max_distortion ? excess(distortion) - excess(*options.max_distortion) : none,
+                  options.max_stretch ? excess_of_stretch(stretch) - excess_of_stretch(*options.max_stretch) : none);
 }
 
-double Wish::aim(const Trial& squeezed) const {
-  double out = options.max_distortion ? excess(*options.max_distortion) : excess(kHopeless);
-  if (options.max_stretch) {
-    const double lag = squeezed.cuts.empty() ? kLag : 0;
-    const double above = excess_of_stretch(squeezed.stretch) - excess_of_stretch(*options.max_stretch);
-    out = std::min(out, excess(squeezed.distortion) - above - lag);
-  }
+double Wish::aim(const Trial& whole) const {
+  double out = std::numeric_limits<double>::infinity();
+  if (options.max_distortion) out = excess(*options.max_distortion);
+  if (options.max_stretch)
+    out = std::min(out, excess(whole.distortion) + excess_of_stretch(*options.max_stretch) - excess_of_stretch(whole.stretch));
   return out;
 }
 
@@ -43,7 +38,8 @@ bool Wish::is_better(const Trial& a, const Trial& b) const {
   if (!has_limit()) return cost(a) < cost(b) - kSettled;
   if (is_enough(a) != is_enough(b)) return is_enough(a);
   if (is_enough(a)) return a.growth < b.growth;
-  return std::pair(above_limits(a), a.distortion) < std::pair(above_limits(b), b.distortion);
+  const auto rank = [&](const Trial& t) { return std::pair(above_limits(t.distortion, t.stretch), t.distortion); };
+  return rank(a) < rank(b);
 }
 
 bool Outcomes::knows(const Trial& trial) const {

@@ -29,10 +29,10 @@ struct Wish {
   bool is_enough(const Trial& trial) const {
     return has_limit() && limits_of(options).used(trial.distortion, trial.stretch) <= 1;
   }
-  /// By how much it exceeds the limits, as excess(); negative where it is below them.
-  double above_limits(const Trial& trial) const;
-  /// The excess that is likely to keep the limits, as far as one tells that was squeezed: only E_d is forecast.
-  double aim(const Trial& squeezed) const;
+  /// By how much these exceed the limits, as excess(); negative where they are below them.
+  double above_limits(double distortion, double stretch) const;
+  /// The excess that keeps the limits: that of the largest E_d or, if less, what stretch leaves of the excess without cuts.
+  double aim(const Trial& whole) const;
   double cost(const Trial& trial) const { return loss(trial) + options.seam_cost * growth_weight * trial.growth; }
 
   /// With a limit the least seams that keep it, else the least of distortion and what seams cost.

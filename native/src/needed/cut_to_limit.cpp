@@ -24,6 +24,7 @@ constexpr double kRemoved = 0.5;        // of what a cut saved when it was added
 constexpr double kLeastGain = 0.01;     // of the logarithm of E_d - 1
 constexpr double kMuchLess = 0.7;       // of the boundary
 constexpr double kRoughly = 1.25;       // times the boundary that is told before a cut is made
+constexpr double kElsewhere = 0.3;      // of what E_d is lower, where a limit of stretch steers
 constexpr double kNear = 0.1;           // of it, above the limit: what is forecast so near may keep it
 
 /// How far the search goes.
@@ -141,21 +142,27 @@ Prospect taken_from(std::vector<Prospect>& prospects, std::vector<Prospect>::ite
   return out;
 }
 
+/// With a limit of stretch as much above `limit`, the excess to come to, as stretch is above its own, less a part for what E_d is
+/// below that: where stretch is local the first cuts hardly change it.
+double steering_excess(const Wish& wish, const Bias& bias, double limit, const Trial& trial) {
+  const double distortion = bias.distortion_of(trial);
+  const double steered = limit + wish.above_limits(distortion, bias.stretch_of(trial));
+  return steered - kElsewhere * std::max(0.0, steered - excess(distortion));
+}
+
 /// Sets that the search may go on with, and which of them first.
 class Frontier {
  public:
-  explicit Frontier(const CutTrials& trials) : trials_(trials) {}
-  /// What to come to, as excess.
+  Frontier(const CutTrials& trials, const Wish& wish) : trials_(trials), wish_(wish) {}
+
   void aim_at(double limit) { limit_ = limit; }
 
   bool empty() const { return open_.empty(); }
   bool is_near(const Trial& trial) const { return likely_excess(trial) <= limit_ + kNear; }
 
-  /// Coarse charts lose a little more than the charts themselves, wherever these are cut: by what their triangles are larger.
-  void learn_bias(const Trial& trial, double foreseen) {
-    if (std::isfinite(trial.distortion) && trial.distortion > 1 && foreseen > 1) bias_ = trial.distortion - foreseen;
-  }
-  double likely_excess(const Trial& trial) const { return excess(trial.foreseen + bias_); }
+  void learn(const SqueezedTrial& squeezed) { bias_.learn(squeezed); }
+  const Bias& bias() const { return bias_; }
+  double likely_excess(const Trial& trial) const { return steering_excess(wish_, bias_, limit_, trial); }
 
   /// The cut that saves most for its length beside those that there are; where none of these is left, back to what promises to
   /// keep the limit with the least boundary. Where none promises to do so with less than `enough`, what may surprise.
@@ -229,13 +236,12 @@ class Frontier {
 
   /// What is foreseen is rough: what needs much less boundary may do more than that.
   std::optional<Prospect> surprising(double enough) {
-    auto best = open_.end();
-    for (auto p = open_.begin(); p != open_.end(); ++p) {
-      const bool may = !p->is_forecast && p->gain >= 0 && p->trial.growth < kMuchLess * enough;
-      if (may && (best == open_.end() || rate_of(*p) > rate_of(*best))) best = p;
-    }
-    if (best == open_.end()) return std::nullopt;
-    return taken_from(open_, best);
+    const auto may = std::stable_partition(open_.begin(), open_.end(), [&](const Prospect& p) {
+      return !p.is_forecast && p.gain >= 0 && p.trial.growth < kMuchLess * enough;
+    });
+    if (may == open_.begin()) return std::nullopt;
+    return taken_from(
+        open_, std::max_element(open_.begin(), may, [&](const auto& a, const auto& b) { return rate_of(a) < rate_of(b); }));
   }
 
   /// The growth with which a set will keep the limit: further cuts save half as much for their length as the best so far, and are
@@ -255,11 +261,13 @@ class Frontier {
   }
 
   const CutTrials& trials_;
-  double limit_ = 0;
+  const Wish& wish_;
+  double limit_ = 0;  ///< what to come to, as excess
   std::vector<Prospect> open_;
   std::vector<std::vector<CutPlace>> seen_;
   Savings savings_;
-  double best_rate_ = 0.1, least_growth_ = 1, bias_ = 0;
+  double best_rate_ = 0.1, least_growth_ = 1;
+  Bias bias_;
   int expansions_ = 0;
 };
 
@@ -271,12 +279,12 @@ class LimitSearch {
         budget_(budget_of(options.effort)),
         rest_(range),
         found_(found),
-        frontier_(trials) {}
+        frontier_(trials, wish_) {}
 
   void run() {
     const SqueezedTrial& whole = found_.squeezed.front();
     if (wish_.is_enough(whole.trial)) return;
-    frontier_.learn_bias(whole.trial, whole.trial.foreseen);
+    frontier_.learn(whole);
     frontier_.aim_at(wish_.aim(whole.trial));
     start_from(whole);
     while (!trials_.finishing() && static_cast<int>(found_.squeezed.size()) <= budget_.squeezes) {
@@ -288,7 +296,7 @@ class LimitSearch {
         forecast(std::move(*next));
       }
     }
-    if (best_passed_ && !keeps_limit() && best_passed_->foreseen < found_.best(wish_).trial.foreseen) squeeze(*best_passed_);
+    if (best_passed_ && !keeps_limit() && is_better(*best_passed_, found_.best(wish_).trial)) squeeze(*best_passed_);
   }
 
  private:
@@ -299,6 +307,7 @@ class LimitSearch {
   }
 
   bool keeps_limit() { return wish_.is_enough(found_.best(wish_).trial); }
+  bool is_better(const Trial& a, const Trial& b) const { return frontier_.likely_excess(a) < frontier_.likely_excess(b); }
   bool may_forecast() { return found_.tried < (keeps_limit() ? budget_.improving : budget_.forecasts); }
 
   /// The most promising are forecast side by side.
@@ -312,7 +321,7 @@ class LimitSearch {
     }
     std::vector<std::vector<CutPlace>> sets;
     for (const Prospect& prospect : first) sets.push_back(prospect.trial.cuts);
-    const auto trials = trials_.forecasts(sets, &whole, most_growth_, step());
+    const auto trials = trials_.forecasts(sets, &whole, frontier_.bias(), most_growth_, step());
     for (std::size_t k = 0; k < first.size(); ++k) {
       ++found_.tried;
       if (!trials[k]) continue;
@@ -327,7 +336,7 @@ class LimitSearch {
   }
 
   void forecast(Prospect prospect) {
-    auto trial = trials_.forecasts({prospect.trial.cuts}, prospect.present, most_growth_, step()).front();
+    auto trial = trials_.forecasts({prospect.trial.cuts}, prospect.present, frontier_.bias(), most_growth_, step()).front();
     if (!trial) return;
     ++found_.tried;
     prospect.trial = std::move(*trial);
@@ -337,10 +346,10 @@ class LimitSearch {
   /// Squeezed, and others found from there. Pieces that are placed anew with every cut are only squeezed where that may be the
   /// end; once no more can be forecast, or where that may be the best there is.
   void look_at(const Prospect& prospect) {
-    const bool is_best = !keeps_limit() && prospect.trial.foreseen < found_.best(wish_).trial.foreseen;
+    const bool is_best = !keeps_limit() && is_better(prospect.trial, found_.best(wish_).trial);
     const bool is_near = frontier_.is_near(prospect.trial);
     if (may_forecast() && !is_near && trials_.places_anew()) {
-      if (!best_passed_ || prospect.trial.foreseen < best_passed_->foreseen) best_passed_ = prospect.trial;
+      if (!best_passed_ || is_better(prospect.trial, *best_passed_)) best_passed_ = prospect.trial;
       return expand(prospect.trial, nullptr);
     }
     if (!may_forecast() && !is_near && !is_best) return;
@@ -350,12 +359,11 @@ class LimitSearch {
   void squeeze(const Trial& trial) {
     auto squeezed = trials_.squeezed(trial, step());
     if (!squeezed) return;
-    frontier_.learn_bias(squeezed->trial, trial.foreseen);
+    frontier_.learn(*squeezed);
     const SqueezedTrial& found = found_.squeezed.emplace_back(std::move(*squeezed));
-    frontier_.aim_at(wish_.aim(found_.best(wish_).trial));
     if (wish_.is_enough(found.trial)) {
       frontier_.add_less(found.trial);
-    } else {
+    } else if (may_forecast()) {
       expand(found.trial, &found);
     }
   }

@@ -43,6 +43,13 @@ std::vector<Chart> charts_at_density(const Refinement& run) {
 
 }  // namespace
 
+void Bias::learn(const SqueezedTrial& squeezed) {
+  const Trial& trial = squeezed.trial;
+  if (!std::isfinite(trial.distortion) || trial.distortion <= 1 || trial.foreseen <= 1) return;
+  (trial.in_place_of ? in_place : anew) = trial.distortion - trial.foreseen;
+  if (trial.foreseen_stretch > 1) stretch = (trial.stretch - 1) / (trial.foreseen_stretch - 1);
+}
+
 CutTrials::CutTrials(const Refinement& run, const ProgressRange& range)
     : run_(run),
       freedom_(freedom_of(run.input.set, run.options)),
@@ -58,6 +65,9 @@ CutTrials::CutTrials(const Refinement& run, const ProgressRange& range)
   }
   if (least_boundary > 0) growth_weight_ = boundary_ / least_boundary;
   prices_.resize(whole_.atlas.pieces.size());
+  const std::vector<Piece>& pieces = whole_.atlas.pieces;
+  for (std::size_t c = 0; c < pieces.size(); ++c)
+    uncut_.emplace_back(pieces[c], run.input.set.charts[c], prices_[c], run.options.cut);
 }
 
 double CutTrials::growth_of(const std::vector<ChartCuts>& charts) const {
@@ -84,15 +94,13 @@ SqueezedTrial CutTrials::without_cuts(const ProgressRange& range) {
   if (std::isfinite(out.trial.distortion)) offset_ = out.trial.distortion - energy;
   const double rough = out.solution.rough_energy;
   out.trial.foreseen = rough > 0 ? offset_ + rough : out.trial.distortion;
+  out.trial.foreseen_stretch = out.trial.stretch;
   out.trial.losses = losses(whole_.atlas, out.solution);
   return out;
 }
 
 std::optional<std::vector<ChartCuts>> CutTrials::made(const std::vector<CutPlace>& cuts) const {
-  std::vector<ChartCuts> out;
-  const std::vector<Piece>& pieces = whole_.atlas.pieces;
-  for (std::size_t c = 0; c < pieces.size(); ++c)
-    out.emplace_back(pieces[c], run_.input.set.charts[c], prices_[c], run_.options.cut);
+  std::vector<ChartCuts> out = uncut_;
   for (const CutPlace& cut : cuts) {
     if (!out[cut.chart].add(cut.chord)) return std::nullopt;
   }
@@ -190,7 +198,7 @@ std::optional<SqueezedTrial> CutTrials::rectangles(const ProgressRange& range) c
   return out;
 }
 
-std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, const SqueezedTrial* present,
+std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, const SqueezedTrial* present, const Bias& bias,
                                          double most_growth) const {
   const auto charts = made(cuts);
   if (!charts || leaves_slivers(*charts)) return std::nullopt;
@@ -205,23 +213,24 @@ std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, cons
   auto left = laid ? forecast_in_place(run, *laid, present->solution) : std::nullopt;
   auto moved = !left || charts->size() <= kFewCharts ? forecast_anew(run, *atlas) : std::nullopt;
   if (!left && !moved) return std::nullopt;
-  const bool stays = left && (!moved || left->end.outcome.energy <= moved->end.outcome.energy);
+  const bool stays = left && (!moved || left->end.outcome.energy + bias.in_place <= moved->end.outcome.energy + bias.anew);
   if (stays) out.in_place_of = present;
   out.forecast = std::move(stays ? left : moved);
   out.foreseen = out.distortion = offset_ + out.forecast->end.outcome.energy;
+  out.stretch = out.foreseen_stretch = out.forecast->stretch;
   out.losses = losses(*atlas, *out.forecast);
   return out;
 }
 
 std::vector<std::optional<Trial>> CutTrials::forecasts(const std::vector<std::vector<CutPlace>>& sets,
-                                                       const SqueezedTrial* present, double most_growth,
+                                                       const SqueezedTrial* present, const Bias& bias, double most_growth,
                                                        const ProgressRange& range) const {
   run_.journal.begin_stage("layout", range);
   std::vector<std::optional<Trial>> out(sets.size());
   parallel_ranges(static_cast<int>(sets.size()), run_.threads, 1, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const bool is_more = present && sets[k].size() > present->trial.cuts.size();
-      out[k] = forecast(sets[k], is_more ? present : nullptr, most_growth);
+      out[k] = forecast(sets[k], is_more ? present : nullptr, bias, most_growth);
     }
   });
   return out;

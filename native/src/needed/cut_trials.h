@@ -25,7 +25,8 @@ struct Trial {
   double growth = 0;           ///< of the boundary on the surface, as a fraction of that of the charts; both sides of a cut count
   double distortion = 0;       ///< E_d; infinite where the bound does not hold
   double foreseen = 0;         ///< the same as it was forecast
-  double stretch = 0;          ///< 99th percentile, once it is squeezed
+  double stretch = 0;          ///< 99th percentile
+  double foreseen_stretch = 0;  ///< the same as it was forecast; 0 without a forecast
   /// What they are one cut more than, where the pieces are best left in its layout; else they are placed anew.
   const SqueezedTrial* in_place_of = nullptr;
   std::optional<Forecast> forecast = {};
@@ -39,6 +40,17 @@ struct SqueezedTrial {
   Trial trial;
   Solution solution;
   std::vector<std::string> fallbacks = {}, warnings = {};  ///< told on the way
+};
+
+/// What squeezes end with beside what was forecast. Coarse charts that are placed anew lose more than the charts themselves will,
+/// by what their triangles are larger; those left in place were coarsened as they lie bent, and tell what they lose.
+struct Bias {
+  double anew = 0, in_place = 0;  ///< E_d more than forecast
+  double stretch = 1;             ///< of stretch - 1, times what was forecast
+
+  double distortion_of(const Trial& trial) const { return trial.foreseen + (trial.in_place_of ? in_place : anew); }
+  double stretch_of(const Trial& trial) const { return 1 + stretch * (trial.foreseen_stretch - 1); }
+  void learn(const SqueezedTrial& squeezed);
 };
 
 /// One more cut, as far as that is told before anything is bent.
@@ -79,9 +91,10 @@ class CutTrials {
   std::optional<SqueezedTrial> rectangles(const ProgressRange& range) const;
 
   /// What sets of cuts come to: a trial for each that can be made, leaves no slivers, adds at most `most_growth` and holds the
-  /// bound. Sets of one cut more than `present` may also be left in its layout; it must outlive them.
+  /// bound. Sets of one cut more than `present` may also be left in its layout; it must outlive them. With `bias` they foresee
+  /// what they will end with.
   std::vector<std::optional<Trial>> forecasts(const std::vector<std::vector<CutPlace>>& sets, const SqueezedTrial* present,
-                                              double most_growth, const ProgressRange& range) const;
+                                              const Bias& bias, double most_growth, const ProgressRange& range) const;
 
   /// Where one more cut may pay; at most so many across charts, and to points of high curvature.
   std::vector<CutPlace> places(const Trial& present, int straight, int tips) const;
@@ -95,7 +108,8 @@ class CutTrials {
  private:
   std::optional<std::vector<ChartCuts>> made(const std::vector<CutPlace>& cuts) const;
   std::optional<CutAtlas> atlas_of(const std::vector<ChartCuts>& charts) const;
-  std::optional<Trial> forecast(const std::vector<CutPlace>& cuts, const SqueezedTrial* present, double most_growth) const;
+  std::optional<Trial> forecast(const std::vector<CutPlace>& cuts, const SqueezedTrial* present, const Bias& bias,
+                                double most_growth) const;
   std::optional<CutAtlas> in_place(const std::vector<ChartCuts>& charts, const CutAtlas& atlas,
                                    const SqueezedTrial& present) const;
   double growth_of(const std::vector<ChartCuts>& charts) const;
@@ -113,7 +127,8 @@ class CutTrials {
   WholeCharts whole_;
   ShapesAsTheyCame shapes_;
   std::vector<SidePrices> prices_;
-  double boundary_;  // of all charts, on the surface
+  std::vector<ChartCuts> uncut_;  // copied sooner than made
+  double boundary_;               // of all charts, on the surface
   double growth_weight_ = 1;
   double area_ = 0;    // likewise
   double offset_ = 0;  // E_d less the objective, which other densities, shapes or weights make differ

@@ -70,6 +70,7 @@ GridLayout place_greedily(const std::vector<GridChart>& charts, const GreedyRule
     const Raster& raster = rasters[layout.turns[chart]];
     strip.add(raster, layout.places[chart]);
     layout.width = std::max(layout.width, layout.places[chart].x + raster.width);
+    if (box_area(layout.width, strip.height(), rule.aspect) > rule.most_area) break;
   }
   layout.height = strip.height();
   layout.work = strip.work();

@@ -19,8 +19,11 @@ namespace {
 /// looking for each chart's place from the bottom on takes too long.
 constexpr int kTooManyToCompact = 500;
 constexpr int kFinalists = 4;
-constexpr int kBatch = 32;        // greedy starts between two looks at the target
-constexpr int kRoughStarts = 65;  // and that one which tells what they cost
+/// Work of one of their boxes made smaller, of a fair search's only one: about 0.15 and 0.05 s.
+constexpr std::int64_t kShrinkingWork = 20'000'000, kFairWork = 10'000'000;
+constexpr int kBatch = 32, kRoughBatch = 8;  // greedy starts between two looks at the target
+constexpr int kFew = 3;                      // charts: greedy placements are as good as any
+constexpr int kRoughStarts = 65;             // and that one which tells what they cost
 /// Work of all greedy starts in words looked at: more than atlases of any number of charts need, half a second of tall strips.
 constexpr std::int64_t kGreedyWork = budget(200'000'000);
 /// Cells along the side for sixty charts. More charts need a finer grid, or most of it is what rounding adds to each.
@@ -78,9 +81,11 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
 
 /// A random rule: charts by size with some noise, a strip between tall and
 /// wide.
-GreedyRule random_rule(const Grid& grid, double aspect, Rng rng) {
+GreedyRule random_rule(const Grid& grid, const PackOptions& options, int start, double most_area) {
+  const double aspect = options.box_aspect;
+  Rng rng(options.seed, 0, start);
   const int n = static_cast<int>(grid.charts.size());
-  GreedyRule rule;
+  GreedyRule rule{.most_area = most_area, .aspect = aspect};
   const double noise = rng.below(4) == 0 ? 0.0 : 0.4;
   std::vector<double> size(n);
   int widest = 0;
@@ -120,7 +125,16 @@ std::vector<Placement> placements_of(const Grid& grid, const GridLayout& layout)
 int starts_of(int charts, const PackOptions& options) {
   if (charts > kTooManyToCompact) return 1;
   if (charts > kManyCharts) return std::clamp(2000 / charts, 1, 8);
-  return options.search == PackSearch::Rough ? kRoughStarts : std::clamp(4000 / charts, 64, 400);
+  return options.search != PackSearch::Thorough ? kRoughStarts : std::clamp(4000 / charts, 64, 400);
+}
+
+int batch_of(const PackOptions& options) { return options.search == PackSearch::Thorough ? kBatch : kRoughBatch; }
+
+/// In cells. Only the best is wanted of rough layouts: what is larger before all charts are placed is not finished.
+double most_useful(const std::vector<GridLayout>& layouts, const PackOptions& options) {
+  double least = INFINITY;
+  for (const GridLayout& layout : layouts) least = std::min(least, box_area(layout.width, layout.height, options.box_aspect));
+  return options.search == PackSearch::Thorough ? INFINITY : least;
 }
 
 /// Of so many starts, each of which costs `work`.
@@ -148,8 +162,12 @@ class Search {
     start_greedily(starts_of(n, options_));
     if (options_.search == PackSearch::Thorough && least_area_ > enough_ && n <= kTooManyToCompact) compact_best(1, 0.3, 0.4);
     if (options_.search == PackSearch::Thorough && least_area_ > enough_ && n <= kManyCharts) {
-      shrink_best();
+      shrink_best(kFinalists, kShrinkingWork);
       if (least_area_ > enough_) compact_best(kFinalists, 0.9, 1);
+    }
+    if (options_.search == PackSearch::Fair && least_area_ > enough_ && n > kFew && n <= kManyCharts) {
+      shrink_best(1, kFairWork);
+      compact_best(1, 0.9, 1);
     }
     return best_;
   }
@@ -173,16 +191,13 @@ class Search {
     best_ = std::move(placements);
   }
 
-  GridLayout greedy_layout(int start) {
-    return place_greedily(grid_.charts, random_rule(grid_, options_.box_aspect, Rng(options_.seed, 0, start)), watch_);
-  }
-
   void add_greedy(int first, int count, int starts) {
+    const double most_area = most_useful(layouts_, options_);
     layouts_.resize(first + count);
     parallel_ranges(count, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         watch_.begin_task(first + k, starts);
-        layouts_[first + k] = greedy_layout(first + k);
+        layouts_[first + k] = place_greedily(grid_.charts, random_rule(grid_, options_, first + k, most_area), watch_);
       }
     });
   }
@@ -190,23 +205,22 @@ class Search {
   /// The first start tells what the others cost; they end with the batch that reaches the target.
   void start_greedily(int starts) {
     watch_.begin_part(0.05, 0.3);
-    watch_.begin_task(0, starts);
-    layouts_ = {greedy_layout(0)};
+    add_greedy(0, 1, starts);
     starts = affordable_starts(layouts_[0].work, starts);
     const auto reaches = [&](const GridLayout& layout) { return area_of(layout) <= enough_; };
-    for (int first = 1; first < starts && std::none_of(layouts_.begin(), layouts_.end(), reaches); first += kBatch)
-      add_greedy(first, std::min(kBatch, starts - first), starts);
+    for (int first = 1; first < starts && std::none_of(layouts_.begin(), layouts_.end(), reaches); first += batch_of(options_))
+      add_greedy(first, std::min(batch_of(options_), starts - first), starts);
     rank();
   }
 
-  void shrink_best() {
-    std::vector<GridLayout> shrunk(kFinalists);
+  void shrink_best(int count, std::int64_t work) {
+    std::vector<GridLayout> shrunk(count);
     watch_.begin_part(0.4, 0.9);
-    parallel_ranges(kFinalists, threads_, 1, [&](int begin, int end) {
+    parallel_ranges(count, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         watch_.begin_task(k - begin, end - begin);
         const BoxGoal goal{options_.box_aspect, enough_ / (grid_.cell * grid_.cell)};
-        shrunk[k] = shrink_box(grid_.charts, layouts_[k], goal, options_.seed + k, watch_);
+        shrunk[k] = shrink_box(grid_.charts, layouts_[k], goal, work, options_.seed + k, watch_);
       }
     });
     layouts_.insert(layouts_.end(), shrunk.begin(), shrunk.end());

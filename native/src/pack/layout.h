@@ -1,6 +1,7 @@
 // A layout on the grid: the values that the search for a packing works on.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -33,12 +34,14 @@ inline double box_area(double width, double height, double aspect) {
 
 /// How the greedy placement goes about it.
 struct GreedyRule {
-  std::vector<int> order;    ///< charts in the order they are placed
-  int strip_width = 0;       ///< cells; no chart may be wider in all its turns
-  double height_weight = 1;  ///< a chart goes where y + height_weight * (its height) is smallest
-  bool many = false;         ///< hundreds of charts: an index of free squares pays
-  bool resume = false;       ///< a chart is searched a place from where some of its size went last: near-linear in charts
-  double turn_noise = 0;     ///< the weight grows by up to this, drawn anew for every turn of every chart
+  std::vector<int> order;       ///< charts in the order they are placed
+  int strip_width = 0;          ///< cells; no chart may be wider in all its turns
+  double height_weight = 1;     ///< a chart goes where y + height_weight * (its height) is smallest
+  bool many = false;            ///< hundreds of charts: an index of free squares pays
+  bool resume = false;          ///< a chart is searched a place from where some of its size went last: near-linear in charts
+  double most_area = INFINITY;  ///< of the box, in cells: once it is larger the layout is of no use, and left unfinished
+  double aspect = 0;            ///< of that box
+  double turn_noise = 0;        ///< the weight grows by up to this, drawn anew for every turn of every chart
   Rng rng{0};
 };
 

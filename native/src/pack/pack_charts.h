@@ -36,6 +36,7 @@ struct Placement {
 enum class PackSearch {
   Thorough,
   Rough,  ///< few greedy placements: to tell which of many atlases can be packed well
+  Fair,   ///< the best of these made smaller for a while, where there are four charts or more
 };
 
 struct PackOptions {

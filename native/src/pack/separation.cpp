@@ -10,8 +10,6 @@
 namespace atlas_refine {
 namespace {
 
-/// Work of one shrink_box, in row words compared: about 0.15 s.
-constexpr std::int64_t kBudget = budget(20'000'000);
 /// Passes over the overlapping charts without progress before a separation
 /// gives up.
 constexpr int kPatience = 60;
@@ -24,10 +22,16 @@ struct Pose {
 
 class Separation {
  public:
-  Separation(const std::vector<GridChart>& charts, Rng rng, Watch& watch)
-      : charts_(charts), n_(static_cast<int>(charts.size())), rng_(rng), watch_(watch), loss_(n_ * n_), weights_(n_ * n_) {}
+  Separation(const std::vector<GridChart>& charts, std::int64_t most_work, Rng rng, Watch& watch)
+      : charts_(charts),
+        n_(static_cast<int>(charts.size())),
+        most_work_(budget(most_work)),
+        rng_(rng),
+        watch_(watch),
+        loss_(n_ * n_),
+        weights_(n_ * n_) {}
 
-  bool exhausted() const { return work_ >= kBudget; }
+  bool exhausted() const { return work_ >= most_work_; }
 
   /// Moves and turns the charts until no two overlap inside width x height
   /// cells; false where it gives up.
@@ -55,6 +59,7 @@ class Separation {
 
   const std::vector<GridChart>& charts_;
   int n_;
+  std::int64_t most_work_;
   Rng rng_;
   Watch& watch_;
   std::vector<double> loss_;     ///< n x n, symmetric
@@ -173,7 +178,7 @@ void Separation::separate_once() {
   }
   for (int k = static_cast<int>(order.size()) - 1; k > 0; --k) std::swap(order[k], order[rng_.below(k + 1)]);
   for (const int chart : order) {
-    watch_.poll(static_cast<double>(work_) / kBudget);
+    watch_.poll(static_cast<double>(work_) / most_work_);
     if (overlaps(chart)) move(chart, best_pose(chart));
   }
 }
@@ -250,11 +255,11 @@ Cell smaller_box(const GridLayout& layout, double aspect, double shrink, Rng& rn
 
 }  // namespace
 
-GridLayout shrink_box(const std::vector<GridChart>& charts, const GridLayout& start, const BoxGoal& goal, std::uint64_t seed,
-                      Watch& watch) {
+GridLayout shrink_box(const std::vector<GridChart>& charts, const GridLayout& start, const BoxGoal& goal, std::int64_t most_work,
+                      std::uint64_t seed, Watch& watch) {
   constexpr int kTries = 3;
   const int n = static_cast<int>(charts.size());
-  Separation separation(charts, Rng(seed, 1), watch);
+  Separation separation(charts, most_work, Rng(seed, 1), watch);
   GridLayout best = start;
   double shrink = 0.01;
   int failures = 0;

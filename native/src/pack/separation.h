@@ -14,9 +14,8 @@ struct BoxGoal {
   double enough = 0;  ///< stop at this box area
 };
 
-/// Shrinks a feasible layout's box again and again until a fixed amount of work
-/// is used up. Deterministic.
-GridLayout shrink_box(const std::vector<GridChart>& charts, const GridLayout& start, const BoxGoal& goal, std::uint64_t seed,
-                      Watch& watch);
+/// Shrinks a feasible layout's box again and again until so much work, in row words compared, is used up. Deterministic.
+GridLayout shrink_box(const std::vector<GridChart>& charts, const GridLayout& start, const BoxGoal& goal, std::int64_t most_work,
+                      std::uint64_t seed, Watch& watch);
 
 }  // namespace atlas_refine

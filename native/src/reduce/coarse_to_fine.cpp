@@ -1,5 +1,6 @@
 // The squeeze: all starts and gaps on coarse charts, only the best of them on the fine ones.
 #include <algorithm>
+#include <cmath>
 
 #include "coarsen/coarse_atlas.h"
 #include "measure/certificate.h"
@@ -95,9 +96,14 @@ std::optional<Squeezed> squeeze_coarsely(const std::vector<PlacedCharts>& starts
   return squeeze_finely(*coarse, charts, objective, std::move(out), options, monitor);
 }
 
-std::vector<Forecast::Loss> losses_of(const std::vector<Chart>& charts, const std::optional<CoarseAtlas>& coarse,
-                                      const Objective& objective, const ReduceResult& end) {
-  std::vector<Forecast::Loss> out;
+/// Of a triangle with this energy whose area is as it should be.
+double stretch_of(double energy) { return std::sqrt(energy + std::sqrt(std::max(0.0, energy * energy - 1))); }
+
+Forecast forecast_of(const std::vector<Chart>& charts, const std::optional<CoarseAtlas>& coarse, const Objective& objective,
+                     Squeezed squeezed) {
+  Forecast out{.end = std::move(squeezed)};
+  const ReduceResult& end = out.end.outcome;
+  std::vector<StretchedArea> stretched;
   std::size_t element = 0;
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
     const bool is_coarse = coarse && coarse->charts[c];
@@ -107,10 +113,13 @@ std::vector<Forecast::Loss> losses_of(const std::vector<Chart>& charts, const st
       if (is_coarse) {
         for (int& v : corners) v = coarse->charts[c]->kept[v];
       }
-      out.push_back({c, corners, objective.weight[element + t] * (end.triangle_energy[c][t] - 1)});
+      const double weight = objective.weight[element + t], energy = end.triangle_energy[c][t];
+      out.losses.push_back({c, corners, weight * (energy - 1)});
+      stretched.push_back({stretch_of(energy), weight});
     }
     element += mesh.triangles.size() + mesh.guards.size();
   }
+  if (!stretched.empty()) out.stretch = stretch_99(std::move(stretched));
   return out;
 }
 
@@ -148,9 +157,7 @@ Forecast forecast_squeeze(const std::vector<Chart>& charts, const Objective& obj
   const Objective& own = coarse ? coarse->objective : objective;
   const PlacedCharts rough = coarse ? restricted(*coarse, {.charts = charts}) : PlacedCharts{.charts = charts};
   const PlacedCharts start = place(rough.charts, own);
-  Forecast out{.end = squeeze_directly({start}, own, options, monitor), .losses = {}};
-  out.losses = losses_of(charts, coarse, own, out.end.outcome);
-  return out;
+  return forecast_of(charts, coarse, own, squeeze_directly({start}, own, options, monitor));
 }
 
 std::optional<Squeezed> squeeze_as_forecast(const std::vector<Chart>& charts, const Objective& objective,
@@ -166,9 +173,7 @@ Forecast forecast_squeeze_on(const PlacedCharts& start, const Objective& objecti
   const auto coarse = coarsen(start.charts, objective, options.freedom);
   const Objective& own = coarse ? coarse->objective : objective;
   const PlacedCharts rough = coarse ? restricted(*coarse, start) : start;
-  Forecast out{.end = {.gap = gap, .outcome = squeeze_on(rough, own, gap, warm, options, monitor)}, .losses = {}};
-  out.losses = losses_of(start.charts, coarse, own, out.end.outcome);
-  return out;
+  return forecast_of(start.charts, coarse, own, {.gap = gap, .outcome = squeeze_on(rough, own, gap, warm, options, monitor)});
 }
 
 }  // namespace atlas_refine

@@ -281,6 +281,7 @@ ReduceResult result_of(const Task& task, const Iterate& best, ReduceStatus statu
   if (task.problem.frame.x() > 0) out.frame = out.end.box;
   out.reached = task.holds_bound(best);
   out.within_limit = task.within_limit(best);
+  out.used_limits = best.used_limits;
   out.pe = best.pe;
   out.energy = best.energy;
   out.distortion = surface_distortion(task.problem.charts, model, best.state.x);

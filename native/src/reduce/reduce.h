@@ -88,6 +88,7 @@ struct ReduceResult {
   ReduceStatus status = ReduceStatus::Converged;
   bool reached = false;  ///< PE of the frame, or of the charts' own bounding box (of the asked aspect), is at least the target
   bool within_limit = true;  ///< of distortion
+  double used_limits = 0;    ///< the part of them that is used: above 1 one is exceeded
   bool holds() const { return reached && within_limit; }
   double pe = 0;
   double least_energy = 0;  ///< the least objective on the way, at whatever PE

@@ -39,7 +39,7 @@ ReduceResult reduce_from(const PlacedCharts& start, const Objective& objective, 
 
 bool better(const ReduceResult& a, const ReduceResult& b) {
   if (a.within_limit != b.within_limit) return a.within_limit;
-  if (!a.within_limit) return a.distortion < b.distortion;
+  if (!a.within_limit) return a.used_limits < b.used_limits;
   if (a.reached != b.reached) return a.reached;
   if (a.reached) return a.energy < b.energy;
   const double least = std::min(a.least_energy, b.least_energy);

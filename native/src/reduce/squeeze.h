@@ -87,7 +87,9 @@ struct Forecast {
   };
 
   Squeezed end;
-  std::vector<Loss> losses;
+  std::vector<Loss> losses = {};
+  /// stretch_99() as far as energies tell it: triangles that are as much longer one way as they are shorter the other.
+  double stretch = 1;
 };
 /// Places charts to be squeezed, which are to lose least of the objective.
 using Placer = std::function<PlacedCharts(const std::vector<Chart>&, const Objective&)>;
