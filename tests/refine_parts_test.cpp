@@ -404,6 +404,17 @@ TEST(Meshes, ThoseThatLieAtOnePlaceShareNoChartAndNoCut) {
   EXPECT_THROW(refine(atlas, {}), RefineError);
 }
 
+/// Flat: a chart whose face has these UVs.
+Atlas triangle_at(const std::vector<Vec2>& uvs) {
+  return {"triangle", {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {0, 3}, {0, 1, 2}, uvs};
+}
+
+TEST(Groups, TheUpperSidesOfATileAreTheNextTiles) {
+  EXPECT_EQ(group_by_tile(triangle_at({{1, 2}, {2, 2}, {2, 3}})).names, std::vector<std::string>{"1022"});
+  EXPECT_EQ(group_by_tile(triangle_at({{2, 2}, {2, 2.5}, {2, 3}})).names, std::vector<std::string>{"1023"});
+  EXPECT_EQ(group_by_tile(triangle_at({{1.5, 0}, {2.5, 0}, {1.5, 1}})).names, std::vector<std::string>{"1003"});
+}
+
 TEST(Groups, TilesStayWhereTheyAre) {
   const Atlas one = moved(star(), {0.5, 0.5}), other = moved(shapes::mesh(shapes::s_shape(), 0.1), {2.5, 1.5});
   const Atlas atlas = shapes::combine({one, other});

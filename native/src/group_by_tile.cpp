@@ -1,6 +1,7 @@
 // UDIM tiles as groups.
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "atlas_refine/tiles.h"
 #include "input/check_atlas.h"
@@ -19,11 +20,32 @@ std::string name_of(const Tile& tile) {
   return numbered ? whole(1001 + column + 10 * row) : "tile (" + whole(column) + ", " + whole(row) + ")";
 }
 
+/// The tile that all faces lie in, none altogether on its upper sides, which are the next tile's: nor does any chart's middle.
+/// Spares most atlases the way to their charts.
+std::optional<Tile> only_tile(const Atlas& atlas) {
+  if (atlas.face_count() == 0) return std::nullopt;
+  const Box box = box_of_points(atlas.corner_uvs);
+  const Tile tile = {std::floor(box.min.y()), std::floor(box.min.x())};
+  const Vec2 end(tile.second + 1, tile.first + 1);
+  if ((box.max.array() > end.array()).any()) return std::nullopt;
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    Vec2 least = end;
+    for (int c = atlas.face_offsets[f]; c < atlas.face_offsets[f + 1]; ++c) least = least.cwiseMin(atlas.corner_uvs[c]);
+    if ((least.array() >= end.array()).any()) return std::nullopt;
+  }
+  return tile;
+}
+
 }  // namespace
 
 TileGroups group_by_tile(const Atlas& atlas) {
   check_arrays(atlas);
   const Atlas usable = is_usable(atlas) ? atlas : set_unusable_aside(atlas).atlas;
+  if (const auto tile = only_tile(usable)) {
+    return {.groups = std::vector<int>(atlas.face_count(), 0),
+            .origins = {Vec2(tile->second, tile->first)},
+            .names = {name_of(*tile)}};
+  }
   const ChartSet set = split_charts(usable);
   std::vector<Tile> tiles;
   std::map<Tile, int> numbers;

@@ -2,6 +2,7 @@
 #include "input/edge_uses.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace atlas_refine {
 
@@ -20,16 +21,33 @@ EdgeUse use_of(const Atlas& atlas, const std::vector<int>& place, int corner, in
   return use;
 }
 
+/// Calls body(corner, next) for every edge of every face.
+template <class Body>
+void for_each_side(const Atlas& atlas, Body body) {
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    const int first = atlas.face_offsets[f], end = atlas.face_offsets[f + 1];
+    for (int c = first; c < end; ++c) body(c, c + 1 < end ? c + 1 : first);
+  }
+}
+
 }  // namespace
 
 std::vector<EdgeUse> edge_uses(const Atlas& atlas, const std::vector<int>& place) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(atlas.corner_count());
-  for (int f = 0; f < atlas.face_count(); ++f) {
-    const int first = atlas.face_offsets[f], end = atlas.face_offsets[f + 1];
-    for (int c = first; c < end; ++c) uses.push_back(use_of(atlas, place, c, c + 1 < end ? c + 1 : first));
+  std::vector<int> start(place.size() + 1, 0);  // of the uses of each lower place
+  for_each_side(atlas, [&](int c, int next) {
+    ++start[std::min(place[atlas.corner_vertices[c]], place[atlas.corner_vertices[next]]) + 1];
+  });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<EdgeUse> uses(atlas.corner_count());
+  std::vector<int> filled(start.begin(), start.end() - 1);
+  for_each_side(atlas, [&](int c, int next) {
+    const EdgeUse use = use_of(atlas, place, c, next);
+    uses[filled[use.low_place]++] = use;
+  });
+  for (std::size_t p = 0; p < place.size(); ++p) {
+    std::sort(uses.begin() + start[p], uses.begin() + start[p + 1],
+              [](const EdgeUse& a, const EdgeUse& b) { return a.sort_key() < b.sort_key(); });
   }
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) { return a.sort_key() < b.sort_key(); });
   return uses;
 }
 

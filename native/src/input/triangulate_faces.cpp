@@ -115,6 +115,18 @@ std::vector<Guard> shaped(int face, const Outline& outline, const std::vector<Tr
   return out;
 }
 
+/// What needs no outline: a face of three corners that is positive.
+bool add_positive_triangle(const Atlas& atlas, const std::vector<CornerRef>& corners, int face, bool turned, Chart& chart) {
+  const int first = atlas.face_offsets[face];
+  if (atlas.face_offsets[face + 1] - first != 3) return false;
+  const auto vertex = [&](int c) { return corners[c].vertex; };
+  const Triangle t = {vertex(first), vertex(turned ? first + 2 : first + 1), vertex(turned ? first + 1 : first + 2)};
+  if (orientation(chart.uvs[t[0]], chart.uvs[t[1]], chart.uvs[t[2]]) <= 0) return false;
+  chart.triangles.push_back(t);
+  chart.triangle_faces.push_back(face);
+  return true;
+}
+
 }  // namespace
 
 FaceTriangles triangulate_faces(const Atlas& atlas, const std::vector<CornerRef>& corners, const std::vector<bool>& turned_faces,
@@ -122,9 +134,13 @@ FaceTriangles triangulate_faces(const Atlas& atlas, const std::vector<CornerRef>
   FaceTriangles out;
   const ReaderTriangles reader(atlas);
   for (int face = 0; face < atlas.face_count(); ++face) {
+    const int own = corners[atlas.face_offsets[face]].chart;
+    if (add_positive_triangle(atlas, corners, face, turned_faces[face], charts[own])) {
+      out.readings.push_back({own, true, true, true});
+      continue;
+    }
     Outline outline{face_corners(atlas, face, turned_faces[face]), {}, {}};
-    const int k = corners[outline.corners[0]].chart;
-    Chart& chart = charts[k];
+    Chart& chart = charts[own];
     for (int c : outline.corners) {
       outline.uvs.push_back(chart.uvs[corners[c].vertex]);
       outline.positions.push_back(atlas.positions[atlas.corner_vertices[c]]);
@@ -134,9 +150,9 @@ FaceTriangles triangulate_faces(const Atlas& atlas, const std::vector<CornerRef>
               corners[outline.corners[t[2]]].vertex};
     };
     std::optional<std::vector<Triangle>> triangles = positive_triangles(face, outline, reader);
-    out.readings.push_back(reading_of(k, outline, triangles.has_value()));
+    out.readings.push_back(reading_of(own, outline, triangles.has_value()));
     if (!triangles) {
-      out.defects.push_back({k, face, defect_of(outline.uvs)});
+      out.defects.push_back({own, face, defect_of(outline.uvs)});
       triangles = any_triangles(atlas, corners, outline);
     }
     for (const Triangle& t : *triangles) {
