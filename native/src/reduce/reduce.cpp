@@ -206,8 +206,8 @@ bool too_slow(const Task& task, const Iterate& at, int iteration, Counters& coun
 void count_unrewarded(const Task& task, const Iterate& at, const Schedule& schedule, Counters& counters) {
   if (!task.holds_bound(at) || !task.within_limit(at)) return;
   const ReduceProblem& problem = task.problem;
-  const double worth =
-      kWorthOfPace * problem.least_change * (at.energy - 1) + (schedule.damping > kTelling ? kWorthOfJam : problem.negligible);
+  const double worth = kWorthOfPace * problem.least_change * (at.energy - 1) +
+                       std::max(problem.negligible, schedule.damping > kTelling ? kWorthOfJam : 0);
   const bool rewarded = !(at.energy > counters.rewarded_at - worth);
   counters.unrewarded = rewarded ? 0 : counters.unrewarded + 1;
   if (rewarded) counters.rewarded_at = at.energy;
