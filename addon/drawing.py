@@ -21,7 +21,7 @@ def draw_main(layout, holder, context):
     if holder.aspect == "TEXTURE":
         _draw_textures(layout, textures)
     layout.prop(holder, "seams")
-    limits = layout.column(align=True)
+    limits = _with_long_names(layout).column(align=True)
     limits.prop(holder, "max_distortion")
     limits.prop(holder, "max_stretch")
     if holder.seams == "NEEDED":
@@ -44,6 +44,13 @@ def draw_main(layout, holder, context):
     layout.prop(holder, "write_to")
 
 
+def _with_long_names(layout):
+    """Names stand in the fields themselves: beside them a sidebar has room for some ten letters."""
+    inner = layout.column()
+    inner.use_property_split = False
+    return inner
+
+
 def _textures(holder, context):
     """By the name of the material where each has its own; of the active object."""
     active = context.active_object
@@ -63,11 +70,11 @@ def _draw_textures(layout, textures):
 
 
 def _draw_most_new_seams(layout, holder):
-    row = layout.row(heading="Most New Seams")
+    row = _with_long_names(layout).row(align=True)
     row.prop(holder, "limit_new_seams", text="")
-    value = row.row()
+    value = row.row(align=True)
     value.active = holder.limit_new_seams
-    value.prop(holder, "most_new_seams", text="")
+    value.prop(holder, "most_new_seams")
 
 
 def _has_materials(obj):

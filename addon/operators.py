@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import EnumProperty, IntProperty
 
-from . import drawing, engine, presets, tasks, trade_off
+from . import again, drawing, engine, presets, tasks, trade_off
 from .bridge import parts as objects
 from .bridge import problems, selection
 from .bridge.mesh import MeshError, find_uv_map
@@ -15,12 +15,34 @@ from .properties import all_properties, to_options
 from .running import OnObjects, Runs
 
 
-class UV_OT_atlas_refine(Runs, bpy.types.Operator):
+class _Refines(Runs):
+    stopped = "Stopped; nothing was changed"
+
+    def _finish(self, run):
+        if run.cancelled:
+            self.report({"INFO"}, self.stopped)
+            return {"CANCELLED"}
+        all_done = run.finish()
+        for done in all_done:
+            for note in (*done.told, *notes(done.result)):
+                self.report({"WARNING"}, titled(done.title, note))
+        if waiting := len(run.atlases) - len(run.begun):
+            self.report({"WARNING"}, f"Stopped before the turn of {counted(waiting, 'more object')}, left as before")
+        for name, text in run.problems:
+            self.report_problem(name, text)
+        for done in all_done:
+            self.report({"INFO"}, f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}")
+        return {"FINISHED"} if all_done else {"CANCELLED"}
+
+
+class UV_OT_atlas_refine(_Refines, bpy.types.Operator):
     """Move, bend and, where Seams allows it, cut the UV charts of the selected objects until they cover the wanted part of the texture"""
 
     bl_idname = "uv.atlas_refine"
     bl_label = "Refine Atlas"
     bl_options = {"REGISTER", "UNDO", "PRESET"}
+
+    replaces_again = True
 
     __annotations__ = {
         **all_properties(),
@@ -43,30 +65,48 @@ class UV_OT_atlas_refine(Runs, bpy.types.Operator):
         drawing.draw_protected(layout, self, context)
         drawing.draw_advanced(layout, self)
 
+    def execute(self, context):
+        if not again.is_asked(context, self):
+            return super().execute(context)
+        options = self._options()
+        if options is None:
+            return {"CANCELLED"}
+        tasks.stop_running()
+        again.ask(context, options)
+        return {"FINISHED"}  # its undo step is the result's once that is there
+
     def _start(self, context, beside_window=False):
+        options = self._options()
+        tasks.stop_running()
+        return options and tasks.Run(context, *options, beside_window)
+
+    def _options(self):
+        """(options, keywords) of a run; None where the preset cannot be had."""
         try:
             presets.apply_to(self)
         except PresetError as error:
             self.report({"ERROR"}, str(error))
             return None
-        options = trade_off.picked(to_options(self), None if self.point < 0 else self.point)
-        return tasks.Run(context, *options, beside_window)
+        return trade_off.picked(to_options(self), None if self.point < 0 else self.point)
+
+
+class UV_OT_atlas_refine_again(_Refines, bpy.types.Operator):
+    """Refine the atlas with the options that were adjusted"""
+
+    bl_idname = "uv.atlas_refine_again"
+    bl_label = UV_OT_atlas_refine.bl_label
+    bl_options = {"INTERNAL", "UNDO_GROUPED"}
+    bl_undo_group = UV_OT_atlas_refine.bl_label  # so that its undo step takes the place of that of execute() above
+
+    stopped = "Stopped; the UV map is as it was before the refinement"
+
+    def _start(self, context, beside_window=False):
+        self._asked = again.take()
+        return tasks.Run(context, *self._asked.options, beside_window, is_again=True)
 
     def _finish(self, run):
-        if run.cancelled:
-            self.report({"INFO"}, "Stopped; nothing was changed")
-            return {"CANCELLED"}
-        all_done = run.finish()
-        for done in all_done:
-            for note in (*done.told, *notes(done.result)):
-                self.report({"WARNING"}, titled(done.title, note))
-        if waiting := len(run.atlases) - len(run.begun):
-            self.report({"WARNING"}, f"Stopped before the turn of {counted(waiting, 'more object')}, left as before")
-        for name, text in run.problems:
-            self.report_problem(name, text)
-        for done in all_done:
-            self.report({"INFO"}, f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}")
-        return {"FINISHED"} if all_done else {"CANCELLED"}
+        again.show_panel(self._asked)
+        return super()._finish(run)
 
 
 class UV_OT_atlas_refine_keep_best(bpy.types.Operator):
@@ -182,6 +222,7 @@ class UV_OT_atlas_refine_select_problems(OnObjects, bpy.types.Operator):
 
 CLASSES = (
     UV_OT_atlas_refine,
+    UV_OT_atlas_refine_again,
     UV_OT_atlas_refine_keep_best,
     UV_OT_atlas_refine_measure,
     UV_OT_atlas_refine_trade_off,
@@ -197,6 +238,7 @@ def register():
 
 
 def unregister():
+    again.unregister()
     trade_off.unregister()
     tasks.unregister()
     for cls in reversed(CLASSES):

@@ -15,6 +15,8 @@ STEP_SECONDS = 0.01
 class OnObjects:
     """An operator that needs something to work on."""
 
+    replaces_again = False  # it may end a run of what was adjusted
+
     @classmethod
     def poll(cls, context):
         """The message says why not."""
@@ -26,7 +28,7 @@ class OnObjects:
         if all(reason for _, reason in reasons):
             cls.poll_message_set(f"{reasons[0][0]}: {reasons[0][1]}")
             return False
-        if tasks.running is not None:
+        if tasks.running is not None and not (cls.replaces_again and tasks.running.is_again):
             cls.poll_message_set("A refinement is running; Esc cancels it")
             return False
         return True
@@ -60,6 +62,9 @@ class Runs(OnObjects):
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
+        if tasks.running is not self._run:  # another run has taken its place
+            self._leave(context)
+            return {"CANCELLED"}
         if event.type == "ESC" and event.value == "PRESS":
             self._run.cancel()
             return {"RUNNING_MODAL"}
@@ -122,7 +127,8 @@ class Runs(OnObjects):
             drawing.redraw_panels(context)
 
     def _leave(self, context):
-        tasks.stop_running()
+        if tasks.running is self._run:
+            tasks.stop_running()
         self._drop_timer(context)
         if context.workspace is not None:
             context.workspace.status_text_set(None)

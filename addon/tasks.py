@@ -33,8 +33,10 @@ class Run:
 
     writes = True
 
-    def __init__(self, context, options, keywords=None, beside_window=False):
-        """`keywords`: the engine's, besides those of the options."""
+    def __init__(self, context, options, keywords=None, beside_window=False, is_again=False):
+        """`keywords`: the engine's, besides those of the options; `is_again`: of what was adjusted after a run (again.py), by a mouse
+        button that may still be down: so the window must not miss an event, as it does between steps of reading and writing."""
+        self.is_again = is_again
         self.problems = []  # (object's name, why nothing was done with it)
         self.errors = []  # those of the engine and of writing, after finish()
         self.atlases = []
@@ -48,7 +50,7 @@ class Run:
         self._written = ()
         self._writing = None
         self._reading = Steps(self._begin(context, options))
-        if not beside_window:
+        if not beside_window or is_again:
             self._reading.finish()
 
     def _begin(self, context, options):
@@ -70,6 +72,8 @@ class Run:
         if not self.done:
             return False
         if self.cancelled:
+            return True
+        if self.is_again:
             return True
         if self._writing is None:
             self._writing = Steps(self._write())

@@ -15,6 +15,7 @@ import bpy
 import driver
 import numpy as np
 import overlay_tests
+import redo_tests
 import shapes
 import turn_tests
 from driver import (
@@ -281,7 +282,7 @@ def test_another_file_ends_a_run():
 
 
 def drive():
-    found = {**vars(overlay_tests), **vars(turn_tests), **globals()}
+    found = {**vars(redo_tests), **vars(overlay_tests), **vars(turn_tests), **globals()}
     tests = [test for name, test in found.items() if name.startswith("test_") and driver.WORD in name]
     counts = {"passed": 0, "failed": 0, "skipped": []}
     yield 1.0

@@ -67,6 +67,19 @@ def click_at(x, y):
     yield 0.2
 
 
+def drag(x, y, by):
+    """To the right, in several moves."""
+    window().event_simulate("MOUSEMOVE", "NOTHING", x=x, y=y)
+    yield 0.3
+    window().event_simulate("LEFTMOUSE", "PRESS", x=x, y=y)
+    yield 0.1
+    for k in range(1, 6):
+        window().event_simulate("MOUSEMOVE", "NOTHING", x=x + k * by // 5, y=y)
+        yield 0.05
+    window().event_simulate("LEFTMOUSE", "RELEASE", x=x + by, y=y)
+    yield 0.1
+
+
 def key(name, over=None, **modifiers):
     x, y = over or point(BUTTON)
     window().event_simulate(name, "PRESS", x=x, y=y, **modifiers)
