@@ -4,15 +4,13 @@
 import bpy
 from bpy.props import EnumProperty, IntProperty
 
-from . import again, drawing, engine, presets, tasks, trade_off
-from .bridge import parts as objects
-from .bridge import problems, selection
-from .bridge.mesh import MeshError, find_uv_map
+from . import again, drawing, looking, presets, tasks, trade_off
+from .bridge import problems
 from .core.presets import PresetError
 from .core.summary import headline, measured, notes
 from .core.words import counted, titled
 from .properties import all_properties, to_options
-from .running import OnObjects, Runs
+from .running import Runs
 
 
 class _Refines(Runs):
@@ -126,21 +124,25 @@ class UV_OT_atlas_refine_keep_best(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class UV_OT_atlas_refine_measure(OnObjects, bpy.types.Operator):
+class UV_OT_atlas_refine_measure(Runs, bpy.types.Operator):
     """Show how much of the texture the UV charts cover, and how distorted they are; nothing is changed"""
 
     bl_idname = "uv.atlas_refine_measure"
     bl_label = "Measure Atlas"
     bl_options = {"REGISTER"}
 
-    def execute(self, context):
-        trouble = []
-        found = tasks.measure_all(context, to_options(context.scene.atlas_refine), trouble)
-        for name, text in trouble:
+    def _start(self, context, beside_window=False):
+        return looking.Measuring(context, to_options(context.scene.atlas_refine), beside_window=beside_window)
+
+    def _finish(self, run):
+        if run.cancelled:
+            return {"CANCELLED"}
+        found = run.finish()
+        for name, text in run.problems:
             self.report_problem(name, text)
         for done in found:
             self.report({"INFO"}, f"{done.title}: {measured(done.measures, done.is_free, done.reached_beyond)}")
-        drawing.redraw_panels(context)
+        drawing.redraw_panels(bpy.context)
         return {"FINISHED"} if found else {"CANCELLED"}
 
 
@@ -168,7 +170,7 @@ class UV_OT_atlas_refine_trade_off(Runs, bpy.types.Operator):
         return {"FINISHED"} if found else {"CANCELLED"}
 
 
-class UV_OT_atlas_refine_select_problems(OnObjects, bpy.types.Operator):
+class UV_OT_atlas_refine_select_problems(Runs, bpy.types.Operator):
     """Select the faces that a refinement has to mend or to leave as they are"""
 
     bl_idname = "uv.atlas_refine_select_problems"
@@ -185,39 +187,18 @@ class UV_OT_atlas_refine_select_problems(OnObjects, bpy.types.Operator):
         )
     }
 
-    def execute(self, context):
+    def _start(self, context, beside_window=False):
         wanted = [kind for kind in problems.KINDS if kind.upper() in self.kinds]
-        uv_map = context.scene.atlas_refine.uv_map
-        found = [(obj, find_uv_map(obj.data, uv_map)) for obj in objects.objects_of(context) if self._is_usable(obj, uv_map)]
-        if not found:
+        return looking.Selecting(context, to_options(context.scene.atlas_refine), wanted, beside_window)
+
+    def _finish(self, run):
+        if run.cancelled:
             return {"CANCELLED"}
-        if context.mode != "EDIT_MESH":
-            for obj, _ in found:
-                obj.select_set(True)
-            context.view_layer.objects.active = found[0][0]
-            bpy.ops.object.mode_set(mode="EDIT")
-        bpy.ops.mesh.select_mode(type="FACE")
-        for obj, name in found:
-            self._select(obj, name, wanted)
+        for name, text in run.problems:
+            self.report_problem(name, text)
+        for name, text in run.finish():
+            self.report({"INFO"}, f"{name}: {text}")
         return {"FINISHED"}
-
-    def _is_usable(self, obj, uv_map):
-        reason = objects.why_not(obj)
-        if not reason:
-            try:
-                find_uv_map(obj.data, uv_map)
-            except MeshError as error:
-                reason = str(error)
-        if reason:
-            self.report_problem(obj.name, reason)
-        return not reason
-
-    def _select(self, obj, uv_map, wanted):
-        faces = problems.find(engine.module, obj, uv_map, tasks.faces_left(obj.name))
-        chosen = sorted({int(face) for kind in wanted for face in faces[kind]})
-        selection.select_faces(obj, uv_map, chosen)
-        words = [counted(len(faces[kind]), f"{problems.KINDS[kind].word} face") for kind in wanted if len(faces[kind])]
-        self.report({"INFO"}, f"{obj.name}: {', '.join(words) or 'no problems'}")
 
 
 CLASSES = (

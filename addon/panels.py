@@ -54,6 +54,7 @@ class _Main:
             _refine_button(row, settings, icon="UV")
         drawing.draw_main(_column(self.layout), settings, context)
         column = self.layout.column(align=True)
+        column.operator_context = "INVOKE_DEFAULT"
         column.operator(operators.UV_OT_atlas_refine_measure.bl_idname, text="Measure")
         column.operator(operators.UV_OT_atlas_refine_select_problems.bl_idname, text="Select Problems")
 
@@ -227,7 +228,6 @@ CLASSES = tuple(_panels())
 def _draw_menu(self, context):
     self.layout.separator()
     _refine_button(self.layout, context.scene.atlas_refine, text="Refine Atlas", icon="UV")
-    self.layout.operator_context = "EXEC_DEFAULT"
     for operator in (operators.UV_OT_atlas_refine_measure, operators.UV_OT_atlas_refine_select_problems):
         self.layout.operator(operator.bl_idname)
 

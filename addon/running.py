@@ -120,7 +120,7 @@ class Runs(OnObjects):
         keys = "stopping" if self._run.finishing else "Enter: stop and keep the best, Esc: cancel"
         if not self._run.writes:
             keys = "Esc: cancel"
-        text = f"Refining: {phase(stage)} {100 * fraction:.0f} % ({keys})"
+        text = f"{self._run.doing}: {phase(stage)} {100 * fraction:.0f} % ({keys})"
         if text != self._shown:  # each redraw costs the window time
             self._shown = text
             context.workspace.status_text_set(text)

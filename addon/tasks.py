@@ -2,7 +2,6 @@
 """One call of the operator: read the meshes, run the engine beside Blender, write what comes. At most one runs with a window's progress."""
 
 import os
-from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -13,7 +12,7 @@ from .bridge import mesh as bridge
 from .bridge import parts as objects
 from .changes import Watch, no_longer, once_drawn
 from .core.request import NothingToDoError
-from .core.steps import Steps, at_once
+from .core.steps import Steps
 from .core.words import titled
 
 #: What a run may fail with for reasons that lie in the objects or the options.
@@ -32,6 +31,7 @@ class Run:
     Beside a window it is driven by step(), else by wait() and finish()."""
 
     writes = True
+    doing = "Refining"
 
     def __init__(self, context, options, keywords=None, beside_window=False, is_again=False):
         """`keywords`: the engine's, besides those of the options; `is_again`: of what was adjusted after a run (again.py), by a mouse
@@ -203,20 +203,6 @@ def _usable(context, options, problems):
         except bridge.MeshError as error:
             without_map.append((obj.name, str(error)))
     return usable, without_map
-
-
-def measure_all(context, options, problems):
-    """A Done for each atlas as it is."""
-    out = []
-    options = replace(options, seams="NONE")  # it cuts nothing: what bars cuts is no matter
-    for atlas in at_once(read_atlases(context, options, problems)):
-        try:
-            out += atlas.measure()
-        except FAILURES as error:
-            problems.append((atlas.title, why(error)))
-    if out:
-        show(out)
-    return out
 
 
 def show(done):

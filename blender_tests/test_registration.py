@@ -73,6 +73,7 @@ class Registration(unittest.TestCase):
         ours = bpy.ops.uv
         for operator in (
             ours.atlas_refine,
+            ours.atlas_refine_again,
             ours.atlas_refine_keep_best,
             ours.atlas_refine_measure,
             ours.atlas_refine_trade_off,

@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.manifold import faces_at_fault
-from . import mesh as bridge
 
 
 class Kind(NamedTuple):
@@ -31,11 +30,10 @@ KINDS = {
 }
 
 
-def find(engine, obj, uv_map, left):
+def find(engine, atlas, name, left):
     """Indices of faces by kind; `left`: those that the last refinement left as they are."""
-    atlas = bridge.read_atlas(obj, uv_map)
     own = {"non_manifold": faces_at_fault(atlas), "left": left}
     if np.isfinite(atlas.corner_uvs).any():
-        return {**engine.find_problems(*atlas.as_tuple(), name=obj.name), **own}
+        return {**engine.find_problems(*atlas.as_tuple(), name=name), **own}
     none = np.zeros(0, dtype=np.int32)
     return {**dict.fromkeys(KINDS, none), "unwrapped": np.arange(len(atlas.face_offsets) - 1), **own}

@@ -5,7 +5,7 @@ import bmesh
 import numpy as np
 
 from . import versions
-from .mesh import integers
+from .mesh import FACES_OF_A_STEP, integers
 
 #: What tells which faces of a mesh in edit mode are selected: the mesh in the 3D view, and in the UV editor where it shows the mesh's
 #: selection; else corners of faces that the UV editor shows; or corners alone, where it shows the mesh's selection and yet parts
@@ -54,18 +54,21 @@ def _reduced(function, mesh, corners):
     return function.reduceat(corners, integers(mesh.polygons, "loop_start"))
 
 
-def select_faces(obj, uv_map, faces):
-    """In edit mode: these faces (indices) and nothing else, in the mesh and in the UV map."""
+def select_in_steps(obj, uv_map, wanted):
+    """In edit mode: these faces (a set of indices) and nothing else, in the mesh and in the UV map."""
     mesh = bmesh.from_edit_mesh(obj.data)
     layer = mesh.loops.layers.uv.get(uv_map)
-    wanted = set(faces)
     for sequence in (mesh.faces, mesh.edges, mesh.verts):
-        for element in sequence:
+        for number, element in enumerate(sequence, 1):
             element.select_set(False)
+            if number % FACES_OF_A_STEP == 0:
+                yield
     for index, face in enumerate(mesh.faces):
         if index in wanted and not face.hide:
             face.select_set(True)
         for loop in face.loops:
             versions.select_uv(loop, layer, index in wanted)
+        if index % FACES_OF_A_STEP == 0:
+            yield
     mesh.select_flush_mode()
     bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
