@@ -165,6 +165,7 @@ def messages(operator, **options):
         except RuntimeError as error:
             print(error, flush=True)
         finally:
+            sys.stdout.flush()  # Blender writes reports to it
             ctypes.CDLL(None).fflush(None)
             os.dup2(kept, 1)
             os.close(kept)
