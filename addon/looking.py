@@ -7,7 +7,6 @@ import bpy
 
 from . import engine, tasks
 from .bridge import mesh as bridge
-from .bridge import parts as objects
 from .bridge import problems, selection
 from .core.words import counted
 
@@ -54,15 +53,10 @@ class Selecting(_Look):
         super().__init__(context, options, None, beside_window)
 
     def _begin(self, context, options):
-        for obj in objects.objects_of(context):
-            reason = objects.why_not(obj)
-            try:
-                uv_map = "" if reason else bridge.find_uv_map(obj.data, options.uv_map)
-            except bridge.MeshError as error:
-                reason = str(error)
-            if reason:
-                self.problems.append((obj.name, reason))
-                continue
+        usable, without_map = tasks.usable_objects(context, options, self.problems)
+        self.problems += without_map
+        for obj in usable:
+            uv_map = bridge.find_uv_map(obj.data, options.uv_map)
             name, left = obj.name, tasks.faces_left(obj.name)
             atlas = yield from bridge.read_in_steps(obj, uv_map)
             found = yield lambda atlas=atlas, name=name, left=left: problems.find(engine.module, atlas, name, left)

@@ -100,7 +100,7 @@ class UV_OT_atlas_refine_again(_Refines, bpy.types.Operator):
 
     def _start(self, context, beside_window=False):
         self._asked = again.take()
-        return tasks.Run(context, *self._asked.options, beside_window, is_again=True)
+        return self._asked and tasks.Run(context, *self._asked.options, beside_window, is_again=True)
 
     def _finish(self, run):
         again.show_panel(self._asked)

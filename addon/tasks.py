@@ -71,9 +71,7 @@ class Run:
             return False
         if not self.done:
             return False
-        if self.cancelled:
-            return True
-        if self.is_again:
+        if self.cancelled or self.is_again:  # what the latter writes, finish() writes at once
             return True
         if self._writing is None:
             self._writing = Steps(self._write())
@@ -160,7 +158,7 @@ class Run:
 
 def read_atlases(context, options, problems):
     """In steps: the atlases that the options ask for; what cannot be used goes to `problems`."""
-    usable, without_map = _usable(context, options, problems)
+    usable, without_map = usable_objects(context, options, problems)
     if not usable:
         problems += without_map
     by_object = options.atlases == "OBJECT"
@@ -189,7 +187,7 @@ def why(error):
     return "the object or its mesh is gone; nothing was written" if isinstance(error, ReferenceError) else str(error)
 
 
-def _usable(context, options, problems):
+def usable_objects(context, options, problems):
     """Objects that can be refined, and (name, why not) of those that lack the UV map which others may have."""
     usable, without_map = [], []
     for obj in objects.objects_of(context):

@@ -28,6 +28,12 @@ class Operator(unittest.TestCase):
             self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=pe_bound), {"FINISHED"})
             self.assertGreaterEqual(packing_efficiency(obj.data, layer), pe_bound)
 
+    def test_what_was_not_adjusted_is_not_refined_again(self):
+        obj = add_mesh()
+        before = snapshot(obj)
+        self.assertEqual(bpy.ops.uv.atlas_refine_again(), {"CANCELLED"})
+        self.assertEqual(changes(before, snapshot(obj)), [])
+
     def test_cuts_along_edges_mark_seams_and_leave_the_mesh_as_it_is(self):
         obj = add_mesh()
         before = snapshot(obj)

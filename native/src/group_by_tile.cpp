@@ -20,8 +20,8 @@ std::string name_of(const Tile& tile) {
   return numbered ? whole(1001 + column + 10 * row) : "tile (" + whole(column) + ", " + whole(row) + ")";
 }
 
-/// The tile that all faces lie in, none altogether on its upper sides, which are the next tile's: nor does any chart's middle.
-/// Spares most atlases the way to their charts.
+/// The tile that all faces lie in. Its upper sides are the next tile's, but only a face that lies on one altogether could have
+/// the middle of its chart there; without such faces charts need not be known.
 std::optional<Tile> only_tile(const Atlas& atlas) {
   if (atlas.face_count() == 0) return std::nullopt;
   const Box box = box_of_points(atlas.corner_uvs);

@@ -54,7 +54,7 @@ struct Outline {
 
 /// Triangles over the corners of a face; nothing where they cannot all be positive.
 std::optional<std::vector<Triangle>> positive_triangles(int face, const Outline& outline, const ReaderTriangles& reader) {
-  if (outline.size() == 3) return all_positive(polygon_fan(3), outline.uvs) ? std::optional(polygon_fan(3)) : std::nullopt;
+  if (outline.size() == 3) return std::nullopt;  // see add_positive_triangle()
   if (auto own = reader.of_face(face, outline.corners); own && all_positive(*own, outline.uvs)) return own;
   return triangulate_polygon(outline.uvs, outline.positions);
 }
@@ -159,7 +159,7 @@ FaceTriangles triangulate_faces(const Atlas& atlas, const std::vector<CornerRef>
       chart.triangles.push_back(on_chart(t));
       chart.triangle_faces.push_back(face);
     }
-    if (outline.size() == 3 || !out.readings.back().ears) continue;
+    if (!out.readings.back().ears) continue;
     for (Guard& guard : shaped(face, outline, guards_of(outline, out.readings.back(), *triangles))) {
       guard.triangle = on_chart(guard.triangle);
       chart.guards.push_back(guard);

@@ -24,7 +24,7 @@ constexpr double kRemoved = 0.5;        // of what a cut saved when it was added
 constexpr double kLeastGain = 0.01;     // of the logarithm of E_d - 1
 constexpr double kMuchLess = 0.7;       // of the boundary
 constexpr double kRoughly = 1.25;       // times the boundary that is told before a cut is made
-constexpr double kElsewhere = 0.3;      // of what E_d is lower, where a limit of stretch steers
+constexpr double kElsewhere = 0.3;      // of how far E_d is below, where a limit of stretch steers
 constexpr double kNear = 0.1;           // of it, above the limit: what is forecast so near may keep it
 
 /// How far the search goes.
@@ -142,8 +142,8 @@ Prospect taken_from(std::vector<Prospect>& prospects, std::vector<Prospect>::ite
   return out;
 }
 
-/// With a limit of stretch as much above `limit`, the excess to come to, as stretch is above its own, less a part for what E_d is
-/// below that: where stretch is local the first cuts hardly change it.
+/// What the search goes by: as far above `limit`, the excess to come to, as the forecast exceeds the limits that are set. Under
+/// one of stretch less a part of how far E_d is below that: where stretch is local the first cuts hardly change it.
 double steering_excess(const Wish& wish, const Bias& bias, double limit, const Trial& trial) {
   const double distortion = bias.distortion_of(trial);
   const double steered = limit + wish.above_limits(distortion, bias.stretch_of(trial));
