@@ -30,8 +30,7 @@ def draw(out, model, picture, title, *options):
         drawn = last.read_text().replace(f">{stage}<", f">{title}<", 1)
         if stage != "input":
             report = json.loads(pathlib.Path(folder, "report.json").read_text())
-            before, after = report["before"]["boundary_length"], report["after"]["boundary_length"]
-            seams = f", seams +{max(0, 100 * (after / before - 1)):.0f} %, {report['seconds']['refine']:.1f} s"
+            seams = f", seams +{100 * report['boundary_growth']:.0f} %, {report['seconds']['refine']:.1f} s"
             drawn = re.sub(r"(PE [0-9.]+ %, E_d [0-9.]+)", rf"\1{seams}", drawn, count=1)
         last.write_text(drawn)
         subprocess.run(["rsvg-convert", "--height", "700", str(last), "-o", str(out / f"{picture}.png")], check=True)
