@@ -123,6 +123,13 @@ Forecast forecast_of(const std::vector<Chart>& charts, const std::optional<Coars
   return out;
 }
 
+/// What a forecast may take: cuts that leave charts jammed for longer are not those that pay.
+SqueezeOptions briefly(SqueezeOptions options) {
+  constexpr int kForecastIterations = 150;
+  options.max_iterations = kForecastIterations;
+  return options;
+}
+
 }  // namespace
 
 Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
@@ -157,7 +164,7 @@ Forecast forecast_squeeze(const std::vector<Chart>& charts, const Objective& obj
   const Objective& own = coarse ? coarse->objective : objective;
   const PlacedCharts rough = coarse ? restricted(*coarse, {.charts = charts}) : PlacedCharts{.charts = charts};
   const PlacedCharts start = place(rough.charts, own);
-  return forecast_of(charts, coarse, own, squeeze_directly({start}, own, options, monitor));
+  return forecast_of(charts, coarse, own, squeeze_directly({start}, own, briefly(options), monitor));
 }
 
 std::optional<Squeezed> squeeze_as_forecast(const std::vector<Chart>& charts, const Objective& objective,
@@ -173,7 +180,8 @@ Forecast forecast_squeeze_on(const PlacedCharts& start, const Objective& objecti
   const auto coarse = coarsen(start.charts, objective, options.freedom);
   const Objective& own = coarse ? coarse->objective : objective;
   const PlacedCharts rough = coarse ? restricted(*coarse, start) : start;
-  return forecast_of(start.charts, coarse, own, {.gap = gap, .outcome = squeeze_on(rough, own, gap, warm, options, monitor)});
+  return forecast_of(start.charts, coarse, own,
+                     {.gap = gap, .outcome = squeeze_on(rough, own, gap, warm, briefly(options), monitor)});
 }
 
 }  // namespace atlas_refine

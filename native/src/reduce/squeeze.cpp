@@ -132,6 +132,7 @@ ReduceProblem problem_at(const PlacedCharts& start, const Objective& objective, 
           .gap = beyond_rounding(gap, options.stored),
           .box_aspect = options.box_aspect,
           .pe_target = options.pe_bound,
+          .max_iterations = options.max_iterations,
           .threads = options.threads,
           .freedom = options.freedom,
           .frame = start.frame};
