@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace atlas_refine {
@@ -107,27 +108,38 @@ SplitMesh::SplitMesh(const Chart& chart) : uvs(chart.uvs), triangles(chart.trian
   one_triangle_.assign(uvs.size(), -1);
   neighbours.assign(triangles.size(), {-1, -1, -1});
   for (int v = 0; v < vertex_count(); ++v) supports.push_back(original(v));
-  struct Edge {
-    int low, high, triangle, side;
-  };
-  std::vector<Edge> edges;
+  // In buckets by the lower ends, which hold few each: sorted as a whole they took most of the time.
+  std::vector<int> first(uvs.size() + 1, 0);
   for (int t = 0; t < triangle_count(); ++t) {
     sources[t] = t;
     for (int k = 0; k < 3; ++k) {
-      const int a = triangles[t][k], b = triangles[t][(k + 1) % 3];
-      one_triangle_[a] = t;
-      edges.push_back({std::min(a, b), std::max(a, b), t, k});
+      one_triangle_[triangles[t][k]] = t;
+      ++first[std::min(triangles[t][k], triangles[t][(k + 1) % 3]) + 1];
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
-  for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
-    const Edge &a = edges[e], &b = edges[e + 1];
-    if (a.low != b.low || a.high != b.high) continue;
-    neighbours[a.triangle][a.side] = b.triangle;
-    neighbours[b.triangle][b.side] = a.triangle;
-    ++e;
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  struct Edge {
+    int high, triangle, side;
+  };
+  std::vector<Edge> edges(first.back());
+  std::vector<int> next(first.begin(), first.end() - 1);
+  for (int t = 0; t < triangle_count(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
+      edges[next[low]++] = {high, t, k};
+    }
+  }
+  for (int v = 0; v < vertex_count(); ++v) {
+    const auto begin = edges.begin() + first[v], end = edges.begin() + first[v + 1];
+    std::sort(begin, end,
+              [](const Edge& a, const Edge& b) { return std::tie(a.high, a.triangle) < std::tie(b.high, b.triangle); });
+    for (auto e = begin; e < end && e + 1 < end; ++e) {
+      const Edge &a = e[0], &b = e[1];
+      if (a.high != b.high) continue;
+      neighbours[a.triangle][a.side] = b.triangle;
+      neighbours[b.triangle][b.side] = a.triangle;
+      ++e;
+    }
   }
 }
 
