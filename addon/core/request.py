@@ -124,9 +124,9 @@ def prepare(engine, parts, options, canvases=ONE_CANVAS, metres=1.0):
     arguments = {**options.engine_arguments(textures[0]), **_arguments_of(joined, locked)}
     if "locked" in arguments and options.aspect == "FREE":  # what stays where it is, is somewhere in a texture
         arguments.update(box_aspect=1.0, in_texture=True)
-    densities = options.uv_densities(textures, metres * joined.unit)
-    if densities and "locked" not in arguments:
-        arguments["uv_density"] = densities[0]
+    densities = _without_locked(options.uv_densities(textures, metres * joined.unit), groups, arguments.get("locked"))
+    if any(densities):
+        arguments["uv_density"] = max(densities)
     origins = places.corners[places.codes[first, 1]]
     if len(first) > 1 or np.any(origins):
         names = [" ".join(filter(None, (canvas.name, places.names[tile]))) for canvas, tile in used]
@@ -145,6 +145,12 @@ def _choose(engine, part, options):
     left_out, locked = stay(charts, part.hidden, part.selected, part.pinned)
     part.taken = ~left_out
     return locked
+
+
+def _without_locked(densities, groups, locked):
+    """0 for boxes in which charts stay: they have the density that they have."""
+    held = set() if locked is None else set(groups[locked].tolist())
+    return [0.0 if group in held else density for group, density in enumerate(densities)]
 
 
 def _why_nothing(parts):

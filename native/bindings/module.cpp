@@ -85,7 +85,7 @@ groups           (F,) integers >= 0: the atlas that each face belongs to, each w
 group_origins    (G, 2): lower left corner of each group's box; None = (0, 0)
 group_aspects    box_aspect of each group that has a number of its own, in [0.01, 100]; box_aspect for the others
 group_gaps       the same for gap, which must be given; in its gap_unit
-group_densities  the same for uv_density, which must be given
+group_densities  the same for uv_density, which must be given; 0 for none, as where charts are locked
 group_names      what messages call the groups
 keep_shape       (F,) flags: charts with such a face are moved, never bent
 locked           (F,) flags: charts with such a face stay where they are, the others go around them in [0, 1]^2

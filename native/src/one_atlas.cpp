@@ -34,7 +34,7 @@ double growth_asked(const InputAtlas& input, const RefineOptions& options) {
 }
 
 bool has_density(const InputAtlas& input, const RefineOptions& options) {
-  return std::abs(growth_asked(input, options) - 1) < kSizeRounding;
+  return std::abs(growth_asked(input, options) - 1) <= input.size_rounding;
 }
 
 /// Valid and, where the box is the texture, within its border: only then PE tells how good it is.
@@ -53,12 +53,19 @@ bool holds_already(const InputAtlas& input, const Freedoms& freedom, const Refin
   const double aspect = options.box_aspect, border = border_of(options);
   const Vec2 box = is_in_texture(freedom, options) ? Vec2(aspect, 1) : box_of_aspect(uv_box(input.set.charts), aspect).size();
   const double scale = options.in_texture ? growth_asked(input, options) : 1;
-  return !options.gap || scale * (1 - 2 * border) * gap_between_charts(input.set.charts, freedom) >= options.gap->length(box);
+  const double between = scale * (1 - 2 * border) * gap_between_charts(input.set.charts, freedom);
+  return !options.gap || between * input.spare >= options.gap->length(box);
+}
+
+/// Of charts that have their size; `packed`: before.
+Gap at_size(const InputAtlas& input, Gap packed) {
+  packed.value /= input.spare;
+  return packed;
 }
 
 /// An automatic gap asks nothing of an atlas that is left as it is.
 Gap own_gap(const InputAtlas& input, const RefineOptions& options) {
-  return options.gap.value_or(Gap{std::min(Gap{}.value, input.measures.gap_between)});
+  return options.gap ? at_size(input, *options.gap) : Gap{std::min(Gap{}.value, input.measures.gap_between)};
 }
 
 Outcome unchanged(const InputAtlas& input, const RefineOptions& options) {
@@ -87,11 +94,7 @@ CertifiedSolution certified(const Refinement& run, Solution solution, const Prog
   if (run.monitor.finishing()) solution.ended = Ended::Stopped;
   restore_shapes(run.input.set.charts, freedom_of(run.input.set, run.options), solution.atlas);
   // Of the whole texture, where the gap was that of the box within its border.
-  if (border_of(run.asked) > 0) {
-    solution.gap = *run.asked.gap;
-  } else {
-    solution.gap.value /= spare_for_size(run.asked);
-  }
+  solution.gap = at_size(run.input, border_of(run.asked) > 0 ? *run.asked.gap : solution.gap);
   CertifiedAtlas atlas = certify(run.input, solution.atlas, solution.gap, run.asked);
   return {std::move(solution), std::move(atlas)};
 }
@@ -130,8 +133,9 @@ Solution as_it_lies(const InputAtlas& input, const RefineOptions& options) {
     constexpr double kRounding = 0.999;
     const double length = growth_asked(input, options) * gap_between_charts(input.set.charts, freedom_of(input.set, options));
     const double most = kRounding * length / Vec2(options.box_aspect, 1).norm();
-    out.gap.value = spare_for_size(options) * std::min(out.gap.value, most);
+    out.gap.value = std::min(out.gap.value, most);
   }
+  out.gap.value *= input.spare;  // as if it were packed
   return out;
 }
 

@@ -52,8 +52,8 @@ std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOpti
   while (!part.charts.empty()) {
     RefineOptions options = options_of_group(of_all, part.group);
     InputAtlas input = part_of(whole, part.charts, options.box_aspect);
-    options = settle_density(std::move(options), input.set.charts);
     input.origin = origin_of(part, options);
+    options = settle_density(std::move(options), input, journal);
     put_in_texture(input, options);
     try {
       return refine_one(input, options, range, monitor, journal);

@@ -89,6 +89,20 @@ def test_locked_charts_have_the_density_that_they_have():
     assert "uv_density" not in prepare(atlas_refine, [part], replace(VALUE, aspect="TEXTURE")).arguments
 
 
+def test_locked_charts_end_the_density_of_their_own_box_only():
+    part = make_part()
+    part.materials[84:] = 1
+    part.pinned = faces(part, 0, 48)
+    canvases = [Canvas(Texture("Skin", 512, 512), name="Skin"), Canvas(Texture("Cloth", 256, 1024), name="Cloth")]
+    options = Options(density="VALUE", texel_density=20.0, atlases="MATERIAL")
+    request = prepare(atlas_refine, [part], options, canvases)
+    held, free = request.arguments["group_densities"]
+    assert (held, free) == (0.0, 20.0 / 1024)
+    assert request.arguments["uv_density"] == free
+    cloth = list(request.densities(options, 1.0, run(request)))[1]
+    assert cloth.after == pytest.approx(20.0, rel=1e-5)
+
+
 def test_what_is_told():
     measured = Density((1024, 512), 100.0)
     assert list(density_lines(measured)) == ["Density 100 px/m", "of a texture of 1024 x 512"]

@@ -183,6 +183,42 @@ def test_a_texture_takes_the_density_that_is_asked_where_it_is_large_enough(aspe
     assert np.array_equal(filled.corner_uvs, full.corner_uvs)
 
 
+@pytest.mark.parametrize("origin", [(0.0, 0.0), (9.0, 9.0), (0.0, 99.0)])
+def test_small_shares_of_far_tiles_have_the_density_that_is_asked(origin):
+    positions, offsets, corners, uvs = shapes.loose()
+    groups, origins = np.zeros(len(offsets) - 1, dtype=np.int32), np.array([origin])
+    tile = {"groups": groups, "group_origins": origins, "box_aspect": 1.0, "in_texture": True, "stored": "float32"}
+    uvs = uvs / np.abs(uvs).max() + origins
+    area = sum(chart.area for chart in atlas_refine.refine(positions, offsets, corners, uvs, **tile).charts)
+    for share in (0.01, 0.003, 0.001, 0.0001):
+        options = {"uv_density": np.sqrt(share / area), **tile}
+        result = atlas_refine.refine(positions, offsets, corners, uvs, **options)
+        assert result.bound_met
+        assert result.after.pe_fixed_aspect == pytest.approx(share, rel=1e-3)
+        again = atlas_refine.refine(positions, offsets, corners, result.corner_uvs, **options)
+        assert again.intervention == "unchanged"
+
+
+def test_many_charts_smaller_than_the_margin_keep_it_at_their_density_without_bending():
+    margin, count = 32 / 1024, 49
+    quads = [shapes.grid(1, 1, origin=(1.5 * (k % 7), 1.5 * (k // 7))) for k in range(count)]
+    arrays = shapes.join(*quads)
+    for pixels in (24.0, 64.0):
+        density = pixels / 1024
+        options = {"box_aspect": 1.0, "in_texture": True, "gap": margin, "gap_unit": "long_side", "stacks": "separate"}
+        result = atlas_refine.refine(*arrays, uv_density=density, stored="float32", **options)
+        assert result.intervention == "moved"
+        assert uv_area(arrays, result.corner_uvs) == pytest.approx(count * density**2, rel=1e-4)
+        own = atlas_refine.measure(*arrays[:3], result.corner_uvs, box_aspect=1.0, in_texture=True)
+        assert own.gap_between * np.hypot(own.box_width, own.box_height) >= margin * (1 - 1e-6)
+        assert result.corner_uvs.min() >= margin * (1 - 1e-6)
+
+
+def test_a_gap_too_large_for_a_free_box_is_told():
+    result = atlas_refine.refine(*shapes.loose(), pe_bound=0.4, uv_density=1e-3, gap=0.01, gap_unit="long_side")
+    assert any("is more than a tenth" in warning for warning in result.warnings)
+
+
 def test_keep_shape_moves_and_never_bends():
     arrays = shapes.loose()
     result = atlas_refine.refine(*arrays, pe_bound=0.8, keep_shape=faces_of(0, 1))

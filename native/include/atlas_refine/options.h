@@ -104,8 +104,8 @@ struct RefineOptions {
   Density density = Density::Equal;
   /// The size of the result, as sqrt(UV area / surface area), UV units (of the texture's height) per model unit. A free box may
   /// reach beyond [0, 1]^2 then; 0 = its longer side is 1. With in_texture charts cover of the texture what that size takes, if
-  /// that is no more than pe_bound, and bend only as far as that asks; else they fill it as without. Not with charts that are
-  /// locked, nor in a box of an aspect that is no texture.
+  /// that is no more than pe_bound, and bend only as far as that asks; else they fill it as without. Not in a box with charts
+  /// that are locked, nor in one of an aspect that is no texture.
   double uv_density = 0;
   Stored stored = Stored::Double;
   RectangleOptions rectangles;
@@ -133,7 +133,8 @@ struct RefineOptions {
   std::vector<double> group_aspects;
   /// Entry g: the value of `gap` for group g, whose texture may have another size in pixels; needs `gap`.
   std::vector<double> group_gaps;
-  std::vector<double> group_densities;  ///< entry g: `uv_density` for group g, where that is given
+  std::vector<double>
+      group_densities;  ///< entry g: `uv_density` for group g, where that is given; 0 for none, as where some are locked
   /// One flag per face, or empty. A chart with a face that is set is only moved: its UVs stay the same shape, to rounding, up to
   /// the scale that `density` gives it.
   std::vector<char> keep_shape;

@@ -17,6 +17,8 @@ struct InputAtlas {
   ChartSet set;        ///< of the charts that take part
   Measures measures = {};
   Vec2 origin = Vec2::Zero();  ///< lower left corner of the box that the result fills
+  double spare = 1;            ///< of settle_density(), by which it has made the gap larger
+  double size_rounding = 0;    ///< of the same: relative, of the size that UVs have once they are stored
 };
 
 /// All charts, each in units of its group's texture, not measured. Throws RefineError(BadInput) as split_charts() does.

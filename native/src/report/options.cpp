@@ -36,6 +36,16 @@ void check_density(double density) {
   require(density >= 0 && std::isfinite(density), "the UV density must be a finite number of at least 0");
 }
 
+constexpr const char* kNeedsRoom = "a UV density needs a free box or a texture, without locked charts";
+
+/// Locked charts have the density that they have.
+void check_locked_density(const RefineOptions& options) {
+  for (std::size_t f = 0; f < options.locked.size(); ++f) {
+    const int group = options.groups.empty() ? 0 : options.groups[f];
+    require(options.locked[f] == 0 || options_of_group(options, group).uv_density == 0, kNeedsRoom);
+  }
+}
+
 void check_kept(const Atlas& atlas, const RefineOptions& options) {
   check_size(atlas, options.groups, "groups must hold one number per face");
   for (const int group : options.groups) require(group >= 0, "group numbers must not be negative");
@@ -69,9 +79,8 @@ void check_options(const Atlas& atlas, const RefineOptions& options) {
   require(options.seam_cost >= 0 && std::isfinite(options.seam_cost), "the seam cost must be a finite number of at least 0");
   require(!options.point || (*options.point >= 0 && options.trade_off), "the point must be at least 0, of a trade-off");
   check_density(options.uv_density);
-  const bool is_free = options.box_aspect == 0 && options.group_aspects.empty();
-  require(options.uv_density == 0 || ((is_free || options.in_texture) && options.locked.empty()),
-          "a UV density needs a free box or a texture, without locked charts");
+  const bool is_free = options.box_aspect == 0 && options.group_aspects.empty() && options.locked.empty();
+  require(options.uv_density == 0 || is_free || options.in_texture, kNeedsRoom);
   require(options.group_densities.empty() || options.uv_density > 0, "UV densities of groups need a UV density");
   for (const double density : options.group_densities) check_density(density);
   const RectangleOptions& rectangles = options.rectangles;
@@ -80,6 +89,7 @@ void check_options(const Atlas& atlas, const RefineOptions& options) {
   require(rectangles.omega >= 0 && rectangles.omega <= 1, "omega must lie in [0, 1]");
   check_importance(atlas, options.importance);
   check_kept(atlas, options);
+  check_locked_density(options);
   require(options.threads >= 0 && options.threads <= 1024, "the number of threads must lie in [0, 1024]");
 }
 

@@ -3,12 +3,54 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "atlas_refine/error.h"
-#include "report/journal.h"
+#include "geometry/boundary.h"
 #include "report/locked.h"
 
 namespace atlas_refine {
+
+namespace {
+
+constexpr double kSizeRounding = 1e-5;  ///< relative, of the size that UVs in single precision are to have
+
+/// How many times as large as asked charts can lie in the texture, `gap` apart and from its border once they have their size.
+/// What is nearer than half the gap to one of them is nobody else's, and that has, by Brunn and Minkowski, at least the area of
+/// the disk that it is around a disk of the chart's area. All of these fit into the texture without half the gap along its
+/// border: (a s - g) (s - g) = sum (sqrt(A_i) + g sqrt(pi) / 2)^2 for a texture s times as high as the charts are large, 1 / s
+/// the answer's. Pieces of charts take more. At no gap this is the charts' area.
+double most_growth(const std::vector<Chart>& charts, double uv_density, double aspect, double gap) {
+  double taken = 0;
+  for (const Chart& chart : charts) {
+    const double side = uv_density * std::sqrt(chart.surface.area()) + gap * std::sqrt(std::numbers::pi) / 2;
+    taken += side * side;
+  }
+  const double sum = (1 + aspect) * gap;
+  return 2 * aspect / (sum + std::sqrt(std::max(0.0, sum * sum - 4 * aspect * (gap * gap - taken))));
+}
+
+/// `asked` is a part of the texture, of which the box takes `side`.
+double gap_of_box(double asked, double side, Journal& journal) {
+  constexpr double kMost = 0.1;
+  if (asked <= kMost * side) return asked / side;
+  journal.warnings.push_back(
+      "a gap of " + number_text("%.3g", asked) +
+      " of the texture's side is more than a tenth of what the charts take: " + number_text("%.3g", kMost * side) + " is kept");
+  return kMost;
+}
+
+/// Relative, of the area that charts of that density lose or gain at most as they are stored, which is coarser far from the first
+/// tile: where every vertex moves, it is what their boundary sweeps over.
+double area_rounding(const InputAtlas& input, const RefineOptions& options, double surface) {
+  if (options.stored == Stored::Double) return 0;
+  const Vec2 farthest = (input.origin.cwiseAbs().array() + 1) * Vec2(options.box_aspect, 1).array();
+  const double moved = farthest.norm() * std::numeric_limits<float>::epsilon() / 2;
+  return moved * boundary_on_surface(input.set.charts) / (options.uv_density * surface);
+}
+
+}  // namespace
 
 double share_of_texture(const std::vector<Chart>& charts, const Freedoms& freedom, const Vec2& origin, double box_aspect,
                         bool fixed_only) {
@@ -25,30 +67,29 @@ bool is_in_texture(const Freedoms& freedom, const RefineOptions& options) { retu
 
 double border_of(const RefineOptions& options) {
   const bool kept = options.in_texture && options.gap && options.gap->value > 0;
-  return kept ? spare_for_size(options) * options.gap->length(Vec2(options.box_aspect, 1)) + kBorderSpare : 0;
+  return kept ? options.gap->length(Vec2(options.box_aspect, 1)) + kBorderSpare : 0;
 }
 
-RefineOptions settle_density(RefineOptions options, const std::vector<Chart>& charts) {
-  constexpr double kMostGap = 0.1;
+RefineOptions settle_density(RefineOptions options, InputAtlas& input, Journal& journal) {
   if (options.uv_density == 0) return options;
-  double area = 0;
-  for (const Chart& chart : charts) area += options.uv_density * options.uv_density * chart.surface.area();
+  double surface = 0;
+  for (const Chart& chart : input.set.charts) surface += chart.surface.area();
+  const double area = options.uv_density * options.uv_density * surface, share = area / options.box_aspect;
+  input.size_rounding = kSizeRounding;
   if (!options.in_texture) {
     if (options.gap && options.gap->unit == Gap::Unit::LongSide)
-      options.gap->value = std::min(options.gap->value / std::sqrt(area), kMostGap);
-    return options;
-  }
-  const double share = area / options.box_aspect;
-  if (share <= options.pe_bound) {
-    options.pe_bound = share * (1 - kSizeRounding);
-  } else {
+      options.gap->value = gap_of_box(options.gap->value, std::sqrt(area), journal);
+  } else if (share > options.pe_bound) {
     options.uv_density = 0;
+  } else {
+    input.size_rounding += area_rounding(input, options, surface) / 2;
+    options.pe_bound = share * std::max(0.5, 1 - 2 * input.size_rounding);
+    const double gap = options.gap ? options.gap->length(Vec2(options.box_aspect, 1)) : 0;
+    const double most = most_growth(input.set.charts, options.uv_density, options.box_aspect, gap);
+    input.spare = std::max(1.0, most * (1 + kSizeRounding));
+    if (options.gap) options.gap->value *= input.spare;
   }
   return options;
-}
-
-double spare_for_size(const RefineOptions& options) {
-  return options.in_texture && options.uv_density > 0 ? 1 / std::sqrt(options.pe_bound) : 1;  // they cover the texture at most
 }
 
 RefineOptions within_border(RefineOptions options) {

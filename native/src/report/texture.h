@@ -3,6 +3,7 @@
 
 #include "atlas_refine/options.h"
 #include "geometry/freedom.h"
+#include "report/journal.h"
 #include "report/measure_atlas.h"
 
 namespace atlas_refine {
@@ -14,22 +15,17 @@ double share_of_texture(const std::vector<Chart>& charts, const Freedoms& freedo
 /// The box is the texture: with fixed charts, and where that is asked.
 bool is_in_texture(const Freedoms& freedom, const RefineOptions& options);
 
-/// What is kept free along the texture's border, in units of its height: the gap, where one is given, with that spare, and a
-/// little for rounding.
+/// What is kept free along the texture's border, in units of its height: the gap, where one is given, and a little for
+/// rounding.
 double border_of(const RefineOptions& options);
 inline constexpr double kBorderSpare = 1e-6;
 
-/// Relative, of a size that UVs in single precision are to have.
-inline constexpr double kSizeRounding = 1e-5;
-
 /// Charts that are to have `uv_density`. In a texture: what they cover of it so is the bound; where that is more than the bound
-/// they fill it, and have the size that comes of it. In a free box: a gap in parts of the long side is meant of [0, 1]^2, and
-/// becomes one of the box, as if that were square and full; so it is at least what is asked.
-RefineOptions settle_density(RefineOptions options, const std::vector<Chart>& charts);
-
-/// Such charts are packed as large as it comes, and then brought to their size. What is kept free between them until then is
-/// larger by this; 1 for others.
-double spare_for_size(const RefineOptions& options);
+/// they fill it, and have the size that comes of it. They are packed as large as it comes and then brought to their size, so
+/// `spare` tells how much larger that may be at most, and a gap that is given becomes larger by it. In a free box: a gap in
+/// parts of the long side is meant of [0, 1]^2, and becomes one of the box, as if that were square and full; so it is at least
+/// what is asked, up to a tenth of the box, which is told. Needs the origin.
+RefineOptions settle_density(RefineOptions options, InputAtlas& input, Journal& journal);
 
 /// The same options for the box within that border: its aspect, and bound and gap, which has that little more too, as fractions
 /// of it. Throws RefineError(BoundNotReached) where it cannot hold the bound and no best effort is asked for.
