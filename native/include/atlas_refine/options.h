@@ -133,8 +133,8 @@ struct RefineOptions {
   std::vector<double> group_aspects;
   /// Entry g: the value of `gap` for group g, whose texture may have another size in pixels; needs `gap`.
   std::vector<double> group_gaps;
-  std::vector<double>
-      group_densities;  ///< entry g: `uv_density` for group g, where that is given; 0 for none, as where some are locked
+  /// Entry g: `uv_density` for group g, where that is given; 0 for none, as where charts are locked.
+  std::vector<double> group_densities;
   /// One flag per face, or empty. A chart with a face that is set is only moved: its UVs stay the same shape, to rounding, up to
   /// the scale that `density` gives it.
   std::vector<char> keep_shape;
