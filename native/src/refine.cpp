@@ -24,7 +24,9 @@
 #include "report/tiles.h"
 #include "report/wished_edges.h"
 #include "support/monitor.h"
+#include "support/parallel.h"
 #include "support/profile.h"
+#include "support/thread_pool.h"
 
 namespace atlas_refine {
 namespace {
@@ -238,6 +240,7 @@ RefineResult refine(const Atlas& atlas, const RefineOptions& asked, const Progre
   RefineResult result;
   run_monitored(progress, [&](Monitor& monitor) {
     take_account();  // what the thread has done before is not of this call
+    const ThreadPoolScope pool(resolve_threads(options.threads));
     Journal journal(monitor, debug, options.box_aspect);
     result = refine_usable(atlas, options, monitor, journal);
     journal.end_stage();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <thread>
 
@@ -28,24 +29,24 @@ class Watch {
   /// `fraction` of the present task. Cheap; call it at least every 0.05 s.
   void poll(double fraction) {
     if (std::this_thread::get_id() != caller_) {
-      if (cancelled_) throw Cancelled{};
+      if (cancelled_) std::rethrow_exception(thrown_);
       return;
     }
     if (!tick_) return;
     try {
       tick_(from_ + (to_ - from_) * std::min(fraction, 1.0));
     } catch (...) {
+      thrown_ = std::current_exception();
       cancelled_ = true;
       throw;
     }
   }
 
  private:
-  struct Cancelled {};  ///< ends a worker; the calling thread throws what the tick threw
-
   std::function<void(double)> tick_;
   std::thread::id caller_;
   std::atomic<bool> cancelled_ = false;
+  std::exception_ptr thrown_;  ///< by the tick, then by everyone; set before the flag
   double part_from_ = 0, part_to_ = 1;  ///< the calling thread's, like the next
   double from_ = 0, to_ = 1;
 };

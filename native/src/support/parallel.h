@@ -9,9 +9,9 @@ namespace atlas_refine {
 int resolve_threads(int requested);
 
 /// Calls body(begin, end) on disjoint ranges that cover [0, count); returns when all are done. The ranges depend on the
-/// number of threads, so the body must treat its indices independently. The first exception is rethrown.
-/// Runs in the calling thread where `threads` is 1 or `count` is below `grain`; the calling thread's account (support/profile.h)
-/// is that of all.
+/// number of threads, so the body must treat its indices independently. The exception of the lowest range is rethrown.
+/// Runs in the calling thread where `threads` is 1 or `count` is below twice the `grain`, else on the pool of this thread
+/// (support/thread_pool.h) or, where it has none, on threads for this call.
 void parallel_ranges(int count, int threads, int grain, const std::function<void(int, int)>& body);
 
 }  // namespace atlas_refine
