@@ -46,7 +46,7 @@ class Watch {
   std::function<void(double)> tick_;
   std::thread::id caller_;
   std::atomic<bool> cancelled_ = false;
-  std::exception_ptr thrown_;  ///< by the tick, then by everyone; set before the flag
+  std::exception_ptr thrown_;           ///< by the tick, then by everyone; set before the flag
   double part_from_ = 0, part_to_ = 1;  ///< the calling thread's, like the next
   double from_ = 0, to_ = 1;
 };

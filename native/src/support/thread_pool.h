@@ -20,8 +20,8 @@ class ThreadPool {
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  /// Calls body(0) to body(parts - 1) on this thread and on as many as `helpers` others, begun in this order; returns when all have
-  /// ended. Of exceptions that of the lowest part is rethrown, as on one thread, and what had not begun by then is left. The
+  /// Calls body(0) to body(parts - 1) on this thread and on as many as `helpers` others, begun in this order; returns when all
+  /// have ended. Of exceptions that of the lowest part is rethrown, as on one thread, and what had not begun by then is left. The
   /// calling thread's account (support/profile.h) is that of all.
   void run(int parts, int helpers, const std::function<void(int)>& body);
 
