@@ -71,7 +71,7 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
   grid.charts.resize(n);
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      watch.poll(static_cast<double>(i - begin) / (end - begin));
+      watch.poll(static_cast<double>(i) / n);
       for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : 2))
         grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options.gap, grid.cell));
     }
