@@ -218,7 +218,7 @@ class Search {
     watch_.begin_part(0.4, 0.9);
     parallel_ranges(count, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
-        watch_.begin_task(k - begin, end - begin);
+        watch_.begin_task(k, count);
         const BoxGoal goal{options_.box_aspect, enough_ / (grid_.cell * grid_.cell)};
         shrunk[k] = shrink_box(grid_.charts, layouts_[k], goal, work, options_.seed + k, watch_);
       }
@@ -246,7 +246,7 @@ class Search {
     watch_.begin_part(from, to);
     parallel_ranges(static_cast<int>(fresh.size()), threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
-        watch_.begin_task(k - begin, end - begin);
+        watch_.begin_task(k, static_cast<int>(fresh.size()));
         const CompactionOptions options{options_.gap, options_.box_aspect, 2 * grid_.cell, [&] { watch_.poll(0); }};
         compacted[k] = compact(outlines_, placements_of(grid_, fresh[k]), options);
       }
