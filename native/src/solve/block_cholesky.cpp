@@ -1,18 +1,14 @@
 // The pattern, its order, and when to look for a new one.
 #include "solve/block_cholesky.h"
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
 
+#include "solve/elimination_order.h"
 #include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
-
-// What finding an order costs, in multiplications of blocks, per entry of the pattern.
-constexpr double kOrderWork = 500;
 
 /// Both triangles of a pattern with its nodes renumbered, and where the blocks lie: as Multifrontal::analyse takes them.
 struct Renumbered {
@@ -58,19 +54,19 @@ void BlockCholesky::analyse(int node_count, std::vector<std::pair<int, int>> edg
   edges = {};
   const bool same_nodes = static_cast<int>(order_.size()) == node_count && last_node_ == last_node;
   last_node_ = last_node;
-  analyse_in_order(node_count, same_nodes);
+  analyse_in_order(same_nodes);
   diagonal.assign(node_count, Mat2::Zero());
   off_diagonal.assign(row_nodes_.size(), Mat2::Zero());
 }
 
-void BlockCholesky::analyse_in_order(int node_count, bool same_nodes) {
+void BlockCholesky::analyse_in_order(bool same_nodes) {
   if (same_nodes) {
     analyse_factor();
     lost_work_ += factor_.work() - work_when_found_;
-    if (lost_work_ <= kOrderWork * (node_count + static_cast<double>(row_nodes_.size()))) return;
+    if (lost_work_ <= order_work_) return;
   }
   factor_ = {};  // whose memory the search for an order may have
-  order_ = minimum_degree_order();
+  find_order();
   analyse_factor();
   work_when_found_ = factor_.work();
   lost_work_ = 0;
@@ -123,29 +119,34 @@ void BlockCholesky::set_zero() {
   std::fill(off_diagonal.begin(), off_diagonal.end(), Mat2::Zero());
 }
 
-std::vector<int> BlockCholesky::minimum_degree_order() const {
+void BlockCholesky::find_order() {
+  // Without the last node's couplings, which would only disturb it.
   const int n = static_cast<int>(row_start_.size()) - 1;
-  // One triangle and the diagonal, which the ordering expects, without the last node's couplings, as compressed columns.
-  std::vector<int> starts(n + 1, 0), rows;
-  rows.reserve(row_nodes_.size() + n);
-  for (int i = 0; i < n; ++i) {
-    rows.push_back(i);
-    for (int k = row_start_[i]; i != last_node_ && k < row_start_[i + 1]; ++k) {
-      if (row_nodes_[k] != last_node_) rows.push_back(row_nodes_[k]);
+  Adjacency graph{.start = std::vector<int>(n + 1, 0), .nodes = {}};
+  const auto for_each_edge = [&](auto&& body) {
+    for (int i = 0; i < n; ++i) {
+      for (int k = row_start_[i]; i != last_node_ && k < row_start_[i + 1]; ++k) {
+        if (row_nodes_[k] != last_node_) body(i, row_nodes_[k]);
+      }
     }
-    starts[i + 1] = static_cast<int>(rows.size());
-  }
-  const std::vector<char> ones(rows.size(), 1);
-  const Eigen::SparseMatrix<char> graph = Eigen::Map<const Eigen::SparseMatrix<char>>(
-      n, n, static_cast<Eigen::Index>(rows.size()), starts.data(), rows.data(), ones.data());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), permutation);
-  std::vector<int> order(permutation.indices().data(), permutation.indices().data() + n);
-  if (last_node_ >= 0) {
-    order.erase(std::find(order.begin(), order.end(), last_node_));
-    order.push_back(last_node_);
-  }
-  return order;
+  };
+  for_each_edge([&](int i, int j) {
+    ++graph.start[i + 1];
+    ++graph.start[j + 1];
+  });
+  for (int i = 0; i < n; ++i) graph.start[i + 1] += graph.start[i];
+  graph.nodes.resize(graph.start[n]);
+  std::vector<int> next(graph.start.begin(), graph.start.end() - 1);
+  for_each_edge([&](int i, int j) {
+    graph.nodes[next[i]++] = j;
+    graph.nodes[next[j]++] = i;
+  });
+  EliminationOrder found = elimination_order(graph);
+  order_ = std::move(found.nodes);
+  order_work_ = found.work;
+  if (last_node_ < 0) return;
+  order_.erase(std::find(order_.begin(), order_.end(), last_node_));
+  order_.push_back(last_node_);
 }
 
 bool BlockCholesky::factor(int threads) {

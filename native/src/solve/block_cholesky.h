@@ -41,16 +41,17 @@ class BlockCholesky {
  private:
   void analyse_factor();
   /// In the present order where the nodes are the same and it still is good enough, else in a new one.
-  void analyse_in_order(int node_count, bool same_nodes);
+  void analyse_in_order(bool same_nodes);
   void set_pattern(int node_count, const std::vector<std::pair<int, int>>& edges);
-  std::vector<int> minimum_degree_order() const;
+  void find_order();
 
   // Pattern of the matrix, rows of smaller nodes.
   std::vector<int> row_start_;
   std::vector<int> row_nodes_;
-  // The order that is kept, the work of a factorisation when it was found, and what it has cost beyond that since.
+  // The order that is kept, what finding it cost, the work of a factorisation then, and what it has cost beyond that since.
   std::vector<int> order_;
   int last_node_ = -1;
+  double order_work_ = 0;
   double work_when_found_ = 0;
   double lost_work_ = 0;
   Multifrontal factor_;

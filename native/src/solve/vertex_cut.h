@@ -1,0 +1,16 @@
+// Few nodes that part a graph.
+#pragma once
+
+#include <vector>
+
+#include "solve/supernodes.h"
+
+namespace atlas_refine {
+
+enum class Half : char { Left, Right, Middle };
+
+/// Of the nodes in the middle as few stay as can part left from right; the others join the sides, so that they are about as large
+/// as each other. Edges that lead past the middle are not parted.
+void narrow_to_cut(const Adjacency& graph, std::vector<Half>& sides);
+
+}  // namespace atlas_refine
