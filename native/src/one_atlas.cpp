@@ -221,6 +221,7 @@ Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, Certif
   Solution& solution = certified.solution;
   Outcome out{.before = input.measures,
               .after = certified.atlas.after,
+              .seams = certified.atlas.seams,
               .triangulations = certified.atlas.triangulations,
               .intervention = solution.intervention,
               .gap = solution.gap,

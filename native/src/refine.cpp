@@ -119,6 +119,13 @@ Joining joining_after(const Participants& participants, const std::vector<Done>&
   return participants.left.empty() && std::all_of(done.begin(), done.end(), changed) ? Joining::Exact : Joining::AsMeant;
 }
 
+/// Where one atlas is all there is the certificate has counted them.
+SeamCount seams_of(const Atlas& result, const Participants& participants, const std::vector<Done>& done) {
+  const Joining joining = joining_after(participants, done);
+  const bool certified = joining == Joining::Exact && done.size() == 1 && participants.followers.empty();
+  return certified ? done.front().outcome.seams : seams_of(join_edges(result, joining));
+}
+
 /// One flag per face where either has one; empty where neither has any.
 std::vector<char> either(const std::vector<char>& one, const std::vector<char>& other) {
   std::vector<char> out = one.empty() ? other : one;
@@ -182,7 +189,7 @@ RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, 
   if (!tiles.faces.empty()) restore_left(input, whole.set, participants, assembled);
   const SeamCount seams = options.groups.empty() ? seams_of(whole.set) : seams_of(join_edges(atlas, Joining::AsMeant));
   measure_seams(input, tiles.faces.empty() ? seams : seams_of(join_edges(input, Joining::AsMeant)), result.before);
-  const SeamCount torn = seams_of(join_edges(assembled.mesh, joining_after(participants, done)));
+  const SeamCount torn = seams_of(assembled.mesh, participants, done);
   measure_seams(assembled.mesh, torn, result.after);
   const int between_groups = whole.set.seam_edges - seams.edges;
   if (between_groups > 0)

@@ -241,6 +241,7 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
   require_valid(input, output, set, freedom_after, out.stored, cut);
   out.mirrored_pieces = static_cast<int>(std::count(set.mirrored.begin(), set.mirrored.end(), true));
   stretch_to_texture(set.charts, options.box_aspect);
+  out.seams = seams_of(set);
   out.after = measure_split(set, options.box_aspect);
   measure_in_texture(charts_as_placed(set), freedom_after, input.origin, options, out.after);
   for (std::size_t p = 0; p < out.stored.size(); ++p) out.stored[p].uvs = out.uvs[p];

@@ -11,6 +11,7 @@ namespace atlas_refine {
 struct CertifiedAtlas {
   std::vector<std::vector<Vec2>> uvs;  ///< of each piece
   Measures after;                      ///< but for seams
+  SeamCount seams;
   Triangulations triangulations;
   int worse_faces = 0;      ///< faces of which a division that was positive in the input no longer is
   int mirrored_pieces = 0;  ///< cut from charts whose faces are wound both ways

@@ -15,6 +15,7 @@ namespace atlas_refine {
 /// What came of one atlas.
 struct Outcome {
   Measures before, after;  ///< but for seams
+  SeamCount seams;         ///< after, where not unchanged
   Triangulations triangulations;
   Intervention intervention = Intervention::Unchanged;
   bool bound_met = false;
