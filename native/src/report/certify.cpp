@@ -2,7 +2,9 @@
 #include "report/certify.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "atlas_refine/error.h"
@@ -16,6 +18,7 @@
 #include "report/locked.h"
 #include "report/stored.h"
 #include "report/texture.h"
+#include "support/parallel.h"
 #include "support/profile.h"
 
 namespace atlas_refine {
@@ -229,6 +232,7 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
   out.uvs = stored_uvs(out.stored, atlas.frame, input.origin, options);
   const Freedoms of_charts = freedom_of(input.set, options), freedom = freedom_of_pieces(of_charts, atlas);
   restore_fixed(input, atlas, of_charts, out.uvs);
+  for (std::size_t p = 0; p < out.stored.size(); ++p) out.stored[p].uvs = out.uvs[p];
   const bool divided = cut && divides_faces(options);
   CutFaces faces = faces_of(input, atlas, {out.uvs, options.triangulate}, divided);
   Atlas output{input.atlas.name, std::move(faces.positions), faces.mesh.face_offsets, faces.mesh.corner_vertices, {}};
@@ -238,23 +242,32 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
   ChartSet set = split_charts(output, Joining::Exact);
   const Freedoms freedom_after = freedom_of_output(set, faces.corners, freedom);
   excuse_fixed(set, freedom_after);
-  require_valid(input, output, set, freedom_after, out.stored, cut);
-  out.mirrored_pieces = static_cast<int>(std::count(set.mirrored.begin(), set.mirrored.end(), true));
-  stretch_to_texture(set.charts, options.box_aspect);
   out.seams = seams_of(set);
-  out.after = measure_split(set, options.box_aspect);
-  measure_in_texture(charts_as_placed(set), freedom_after, input.origin, options, out.after);
-  for (std::size_t p = 0; p < out.stored.size(); ++p) out.stored[p].uvs = out.uvs[p];
-  require_guards(output, out.stored, options.stored);
-  stretch_to_texture(out.stored, options.box_aspect);
-  require_gap(output, out.stored, freedom, gap, options);
-  require_border(output, out.stored, freedom, input.origin, options);
   out.triangulations = count_readings(set.readings);
+  out.mirrored_pieces = static_cast<int>(std::count(set.mirrored.begin(), set.mirrored.end(), true));
   if (!divided) out.worse_faces = worse_faces(input.set.readings, set.readings);
-  // The same triangles in the same order as the input's: only then can E_2 be told.
-  out.after.distortion_to_input = dirichlet_sums_between(pieces_of_input(input, atlas), out.stored).best_energy();
-  out.charts = chart_reports(input, out.stored, charts_of(atlas));
-  if (cut) out.pieces = piece_reports(out.stored, atlas, faces);
+  double to_input = 0;
+  const std::array<std::function<void()>, 2> tests = {
+      [&] {
+        require_valid(input, output, set, freedom_after, out.stored, cut);
+        stretch_to_texture(set.charts, options.box_aspect);
+        out.after = measure_split(set, options.box_aspect);
+        measure_in_texture(charts_as_placed(set), freedom_after, input.origin, options, out.after);
+      },
+      [&] {
+        require_guards(output, out.stored, options.stored);
+        stretch_to_texture(out.stored, options.box_aspect);
+        require_gap(output, out.stored, freedom, gap, options);
+        require_border(output, out.stored, freedom, input.origin, options);
+        // The same triangles in the same order as the input's: only then can E_2 be told.
+        to_input = dirichlet_sums_between(pieces_of_input(input, atlas), out.stored).best_energy();
+        out.charts = chart_reports(input, out.stored, charts_of(atlas));
+        if (cut) out.pieces = piece_reports(out.stored, atlas, faces);
+      }};
+  parallel_ranges(static_cast<int>(tests.size()), resolve_threads(options.threads), 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) tests[k]();
+  });
+  out.after.distortion_to_input = to_input;
   return out;
 }
 
