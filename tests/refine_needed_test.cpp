@@ -1,4 +1,5 @@
 // Cuts only where they are needed or pay, by the public measures of the output mesh.
+#include <algorithm>
 #include <cmath>
 
 #include "closed_shapes.h"
@@ -245,6 +246,26 @@ TEST(Needed, AmongManyChartsTheLayoutStays) {
   const RefineResult result = refine_soundly(atlas, needed_within(1 + 0.8 * (without_cuts(atlas) - 1)));
   EXPECT_GT(result.cuts->cuts, 0);
   EXPECT_EQ(result.after.chart_count, 10);
+}
+
+// What another packing comes to a little below needs no seam.
+TEST(Needed, SeveralChartsAreFirstPackedAgain) {
+  std::vector<Atlas> flat;
+  for (int k = 0; k < 8; ++k) flat.push_back(shapes::mesh(shapes::disk(0.5 + 0.05 * k, 7), 0.2, 0));
+  const Atlas atlas = shapes::combine(flat);
+  std::vector<double> whole;
+  RefineOptions options;
+  for (options.seed = 1; options.seed <= 8; ++options.seed) whole.push_back(refine(atlas, options).after.distortion);
+  int tried = 0;
+  for (std::size_t k = 0; k + 2 < whole.size(); ++k) {
+    const double again = std::min(whole[k + 1], whole[k + 2]);
+    if (whole[k] < again + 1e-5 || whole[k] > again + 4e-4) continue;
+    ++tried;
+    options = needed_within(0.5 * (whole[k] + again));
+    options.seed = k + 1;
+    EXPECT_EQ(refine_soundly(atlas, options).cuts->cuts, 0) << options.seed;
+  }
+  EXPECT_GT(tried, 0);
 }
 
 TEST(Needed, TheTradeOffHasEveryChoice) {

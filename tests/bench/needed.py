@@ -87,12 +87,19 @@ def uncut(files, k):
     return sum(rows[k].bl == rows[k].bl_in for rows in files)
 
 
+def name_beside(rows):
+    """Of a file, and by how much its rectangles miss the first limit."""
+    missed = rows[1].e_d - rows[0].e_d_in - MARGINS[0]
+    words = f" (whose rectangles miss the limit by {missed:.4f})" if missed > SPARE else ""
+    return f"{rows[0].folder}/{rows[0].file}{words}"
+
+
 def summary(files):
     """What is asked of all files together; of those whose input is not hopeless."""
     low = [rows for rows in files if rows[0].ok and rows[0].e_d_in < LOW_DISTORTION]
     both = [rows for rows in low if rows[1].ok and rows[2].ok and added(rows[1]) > 0]
     ratio = mean(added(rows[2]) for rows in both) / mean(added(rows[1]) for rows in both)
-    more = [f"{rows[0].folder}/{rows[0].file}" for rows in both if added(rows[2]) > added(rows[1])]
+    more = [name_beside(rows) for rows in both if added(rows[2]) > added(rows[1])]
     loose = [rows for rows in low if rows[-1].ok]
     growth = mean(added(rows[-1]) for rows in loose)
     return [

@@ -39,6 +39,13 @@ def test_each_verdict_can_fail(needed, loose, wrong):
     assert verdicts([rows_of(needed, loose)])[wrong] == "NO"
 
 
+def test_rectangles_that_miss_the_limit_are_told():
+    files = [rows_of({"bl": 2.5}, {})]
+    assert "by 0.0100" in summary(files)[4]
+    files[0][1].e_d = files[0][1].e_d_in
+    assert "miss" not in summary(files)[4]
+
+
 def test_a_file_that_misses_its_limit_is_counted_and_says_why():
     missed = {"valid": False, "reason": "exit 4: no atlas within"}
     files = [rows_of({"bl": 1.2}, {}), rows_of(missed, missed)]

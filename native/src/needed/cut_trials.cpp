@@ -85,8 +85,15 @@ void CutTrials::measure(const Solution& solution, Trial& trial) const {
   trial.stretch = stretch_99(charts, sums.best_scale());
 }
 
-SqueezedTrial CutTrials::without_cuts(const ProgressRange& range) {
-  SqueezedTrial out{.trial = {}, .solution = place_and_squeeze(run_, whole_.atlas, whole_.keeps_place, range)};
+SqueezedTrial CutTrials::without_cuts(const ProgressRange& range, int again) {
+  Journal& journal = run_.journal;
+  const Journal::Mark before = journal.mark();
+  RefineOptions options = run_.options;
+  options.seed += again;
+  const Refinement run{run_.input, options, run_.monitor, journal, run_.threads, run_.asked};
+  SqueezedTrial out{.trial = {}, .solution = place_and_squeeze(run, whole_.atlas, whole_.keeps_place, range)};
+  keep_words(before, out);
+  journal.back_to({again ? before.repairs : journal.mark().repairs, before.fallbacks, before.warnings});
   measure(out.solution, out.trial);
   const std::vector<Chart> charts = meshes_of(out.solution.atlas);
   const Objective objective = goal_of(run_.input.set.charts, out.solution.atlas, run_.options);

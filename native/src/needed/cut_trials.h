@@ -73,6 +73,8 @@ class CutTrials {
   /// Pieces are best placed anew with every cut, not left where they lie.
   bool places_anew() const { return whole_.atlas.pieces.size() <= kFewCharts; }
 
+  bool has_several_charts() const { return whole_.atlas.pieces.size() > 1; }
+
   /// What growth of the boundary is multiplied with where cuts are weighed against distortion: a chart with less boundary than a
   /// flat disk of its area cannot be flat, and counts as if it had that disk's.
   double growth_weight() const { return growth_weight_; }
@@ -82,8 +84,8 @@ class CutTrials {
 
   const std::vector<int>& mended() const { return whole_.mended; }
 
-  /// The first to be asked for.
-  SqueezedTrial without_cuts(const ProgressRange& range);
+  /// The first to be asked for. `again`: packed by other random choices.
+  SqueezedTrial without_cuts(const ProgressRange& range, int again = 0);
   /// Of what was forecast; nothing where the bound does not hold.
   std::optional<SqueezedTrial> squeezed(const Trial& trial, const ProgressRange& range) const;
 
