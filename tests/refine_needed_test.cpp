@@ -268,6 +268,52 @@ TEST(Needed, SeveralChartsAreFirstPackedAgain) {
   EXPECT_GT(tried, 0);
 }
 
+/// A chart, and beside it its mirror image, whose borders begin elsewhere.
+Atlas with_image(const Atlas& half) {
+  double left = half.positions.front().x();
+  for (const Vec3& p : half.positions) left = std::min(left, p.x());
+  Atlas own = half, image = half;
+  for (Vec3& p : own.positions) p.x() += 1 - left;
+  for (std::size_t v = 0; v < own.positions.size(); ++v) {
+    image.positions[v] = own.positions[v];
+    image.positions[v].x() *= -1;
+  }
+  for (int f = 0; f < half.face_count(); ++f) {
+    const auto first = half.face_offsets[f], end = half.face_offsets[f + 1];
+    std::reverse(image.corner_vertices.begin() + first, image.corner_vertices.begin() + end);
+    std::reverse(image.corner_uvs.begin() + first, image.corner_uvs.begin() + end);
+  }
+  for (Vec2& uv : image.corner_uvs) uv.x() *= -1;
+  return shapes::combine({own, image});
+}
+
+/// Of the cuts' edges those whose image by the middle of all vertices is none of them.
+int lopsided_seams(const Atlas& atlas, const RefineResult& result) {
+  const std::vector<Vec3> positions = testing::output(atlas, result).positions;
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& p : atlas.positions) middle += p / static_cast<double>(atlas.positions.size());
+  std::vector<Vec2> seams;
+  for (const auto& [a, b] : result.cut ? result.cut->new_seams : result.new_seams)
+    seams.push_back((0.5 * (positions[a] + positions[b]) - middle).head<2>());
+  return static_cast<int>(std::count_if(seams.begin(), seams.end(), [&](const Vec2& at) {
+    const Vec2 image(-at.x(), at.y());
+    return std::none_of(seams.begin(), seams.end(), [&](const Vec2& other) { return (image - other).norm() < 1e-6; });
+  }));
+}
+
+TEST(Needed, SymmetricMeshesAreCutSymmetrically) {
+  for (const Atlas& half : {flat_s(), flat_star()}) {
+    const Atlas atlas = with_image(half);
+    for (const int threads : {1, 2}) {
+      RefineOptions options = needed_within(1 + 0.6 * (without_cuts(atlas) - 1));
+      options.threads = threads;
+      const RefineResult result = refine_soundly(atlas, options);
+      EXPECT_EQ(result.cuts->cuts, 2);
+      EXPECT_EQ(lopsided_seams(atlas, result), 0);
+    }
+  }
+}
+
 TEST(Needed, TheTradeOffHasEveryChoice) {
   const Atlas atlas = flat_s();
   RefineOptions options = needed();

@@ -13,10 +13,12 @@
 namespace atlas_refine {
 namespace {
 
-constexpr int kMostPoints = 24;           // of a trade-off
-constexpr int kTipsPart = 3;              // one of so many cuts leads to a point of high curvature
-constexpr int kPackings = 2;              // more of several charts, before any is cut
-constexpr double kByChance = 5e-4;        // of E_d: so much more or less other packings of a file came to
+constexpr int kMostPoints = 24;     // of a trade-off
+constexpr int kTipsPart = 3;        // one of so many cuts leads to a point of high curvature
+constexpr int kPackings = 2;        // more of several charts, before any is cut
+constexpr double kByChance = 5e-4;  // of E_d: so much more or less other packings of a file came to
+constexpr double kAnyGrowth = std::numeric_limits<double>::infinity();
+constexpr double kAsGood = 1.02;          // times the boundary, or the cost: what symmetric cuts may have more
 constexpr double kFewOfRectangles = 0.4;  // growth: rectangles add less to 5 of the 46 files of one chart in the bench only
 constexpr std::array<double, 5> kPrices = {0.1, 0.4, 0.05, 0.2, 0.025};  // of seams, as seam_cost: for a trade-off
 
@@ -60,6 +62,27 @@ SqueezedTrial without_cuts(CutTrials& trials, const Wish& wish, const ProgressRa
   return out;
 }
 
+bool is_as_good(const Wish& wish, const Trial& trial, const Trial& best) {
+  if (wish.has_limit()) return wish.is_enough(best) ? wish.is_enough(trial) : !wish.is_better(best, trial);
+  return wish.cost(trial) - 1 < kAsGood * (wish.cost(best) - 1);
+}
+
+/// The best, or nearly the same cuts as mirror images of each other where that costs nothing.
+SqueezedTrial& symmetric(const CutTrials& trials, const Wish& wish, SqueezedTrial& best, const ProgressRange& range,
+                         Outcomes& found) {
+  if (trials.finishing()) return best;
+  const double most = std::min(wish.options.max_boundary_growth.value_or(kAnyGrowth), kAsGood * best.trial.growth);
+  const auto sets = trials.symmetric_sets(best.trial.cuts);
+  if (sets.empty()) return best;
+  for (const auto& trial : trials.forecasts(sets, &found.squeezed.front(), {}, most, range.part(0, 0.3))) {
+    if (!trial) continue;
+    ++found.tried;
+    auto squeezed = trials.squeezed(*trial, range.part(0.3, 1));
+    if (squeezed && is_as_good(wish, squeezed->trial, best.trial)) return found.squeezed.emplace_back(std::move(*squeezed));
+  }
+  return best;
+}
+
 class Search {
  public:
   Search(CutTrials& trials, const RefineOptions& options, const ProgressRange& range)
@@ -75,7 +98,8 @@ class Search {
     } else {
       look_for_best();
     }
-    SqueezedTrial& chosen = options_.point ? found_.point(*options_.point) : found_.best(wish_);
+    SqueezedTrial& chosen =
+        options_.point ? found_.point(*options_.point) : symmetric(trials_, wish_, found_.best(wish_), step(), found_);
     chosen.solution.cuts = found_.report(chosen.trial);
     return std::move(chosen);
   }
@@ -127,7 +151,7 @@ class Search {
     if (wish_.is_enough(rectangles->trial)) found_.squeezed.push_back(std::move(*rectangles));
   }
 
-  double most_growth() const { return options_.max_boundary_growth.value_or(std::numeric_limits<double>::infinity()); }
+  double most_growth() const { return options_.max_boundary_growth.value_or(kAnyGrowth); }
 
   template <class Cost>
   std::vector<Trial>::iterator cheapest(const Cost& cost) {

@@ -9,6 +9,8 @@
 #include <limits>
 #include <optional>
 
+#include "needed/symmetric_cuts.h"
+
 namespace atlas_refine {
 namespace {
 
@@ -47,12 +49,6 @@ Budget budget_of(Effort effort) {
       return {.first_places = 60, .places = 40, .tips = 8, .first = 8, .improving = 100, .forecasts = 160, .squeezes = 60};
   }
   return {};
-}
-
-bool same(const CutPlace& a, const CutPlace& b) {
-  const bool straight = a.chord.at[0] == b.chord.at[0] && a.chord.at[1] == b.chord.at[1];
-  const bool reversed = a.chord.at[0] == b.chord.at[1] && a.chord.at[1] == b.chord.at[0];
-  return a.chart == b.chart && (straight || reversed);
 }
 
 bool has(const std::vector<CutPlace>& cuts, const CutPlace& place) {

@@ -10,6 +10,7 @@
 #include "input/price_sides.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
+#include "needed/symmetric_cuts.h"
 #include "place_and_squeeze.h"
 #include "placing.h"
 #include "rectangles.h"
@@ -105,6 +106,9 @@ SqueezedTrial CutTrials::without_cuts(const ProgressRange& range, int again) {
   out.trial.losses = losses(whole_.atlas, out.solution);
   return out;
 }
+
+/// Vertices are numbered as in the input.
+bool CutTrials::is_as_it_came(int chart) const { return is_whole(whole_.atlas.pieces[chart], run_.input.set.charts[chart]); }
 
 std::optional<std::vector<ChartCuts>> CutTrials::made(const std::vector<CutPlace>& cuts) const {
   std::vector<ChartCuts> out = uncut_;
@@ -281,6 +285,47 @@ std::vector<CutPlace> CutTrials::places(const Trial& present, int straight, int 
   for (std::size_t c = 0; c < charts->size(); ++c)
     states.push_back({bends(freedom_, c) ? &(*charts)[c] : nullptr, &whole_.atlas.pieces[c].mesh, present.losses[c]});
   return cut_places(states, straight, tips);
+}
+
+/// Where the mirror image of a cut runs; nothing where the surface, or the chart there, has none.
+std::optional<CutPlace> CutTrials::mirrored(const CutPlace& place, const MirrorImage& mirror) const {
+  const auto a = mirror.of({place.chart, place.chord.ends[0]}), b = mirror.of({place.chart, place.chord.ends[1]});
+  if (!a || !b || a->chart != b->chart || !is_as_it_came(place.chart) || !is_as_it_came(a->chart)) return std::nullopt;
+  const std::vector<Vec2>& uvs = whole_.atlas.pieces[a->chart].mesh.uvs;
+  CutPlace out{a->chart, place.chord, place.released};
+  out.chord.ends = {a->vertex, b->vertex};
+  out.chord.at = {uvs[a->vertex], uvs[b->vertex]};
+  return out;
+}
+
+/// Between vertices that are their own images, ends on the border where they were on it.
+std::optional<CutPlace> CutTrials::along_mirror(const CutPlace& place, const MirrorImage& mirror) const {
+  if (!is_as_it_came(place.chart)) return std::nullopt;
+  const Chart& chart = whole_.atlas.pieces[place.chart].mesh;
+  const std::vector<char> on_border = boundary_flags(chart);
+  CutPlace out = place;
+  for (std::size_t end = 0; end < 2; ++end) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int v = 0; v < chart.vertex_count(); ++v) {
+      const double away = (chart.uvs[v] - place.chord.at[end]).norm();
+      if (away >= nearest || on_border[v] != on_border[place.chord.ends[end]]) continue;
+      const auto image = mirror.of({place.chart, v});
+      if (!image || image->chart != place.chart || image->vertex != v) continue;
+      nearest = away;
+      out.chord.ends[end] = v;
+      out.chord.at[end] = chart.uvs[v];
+    }
+    if (!std::isfinite(nearest)) return std::nullopt;
+  }
+  if (out.chord.ends[0] == out.chord.ends[1]) return std::nullopt;
+  return out;
+}
+
+std::vector<std::vector<CutPlace>> CutTrials::symmetric_sets(const std::vector<CutPlace>& cuts) const {
+  if (cuts.empty()) return {};
+  const MirrorImage mirror(run_.input.atlas, run_.input.set);
+  return atlas_refine::symmetric_sets(cuts, {[&](const CutPlace& place) { return mirrored(place, mirror); },
+                                             [&](const CutPlace& place) { return along_mirror(place, mirror); }});
 }
 
 /// Edges seldom run straight: only the way along them tells how long a cut is, and what it leaves.

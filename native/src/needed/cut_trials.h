@@ -7,6 +7,7 @@
 
 #include "needed/cut_outlines.h"
 #include "needed/cut_shapes.h"
+#include "needed/mirror_image.h"
 #include "reduce/squeeze.h"
 #include "report/solution.h"
 #include "seams/cut_places.h"
@@ -100,6 +101,8 @@ class CutTrials {
 
   /// Where one more cut may pay; at most so many across charts, and to points of high curvature.
   std::vector<CutPlace> places(const Trial& present, int straight, int tips) const;
+  /// These cuts with others that are nearly mirror images of each other, or of themselves, made so.
+  std::vector<std::vector<CutPlace>> symmetric_sets(const std::vector<CutPlace>& cuts) const;
   /// What the pieces are likely to lose, and with each of these cuts. Of cuts that would run along the same edges all but the
   /// first cannot be made.
   Previews previews(const Trial& present, const std::vector<CutPlace>& places) const;
@@ -114,6 +117,9 @@ class CutTrials {
                                 double most_growth) const;
   std::optional<CutAtlas> in_place(const std::vector<ChartCuts>& charts, const CutAtlas& atlas,
                                    const SqueezedTrial& present) const;
+  bool is_as_it_came(int chart) const;
+  std::optional<CutPlace> mirrored(const CutPlace& place, const MirrorImage& mirror) const;
+  std::optional<CutPlace> along_mirror(const CutPlace& place, const MirrorImage& mirror) const;
   double growth_of(const std::vector<ChartCuts>& charts) const;
   void preview_along_edges(const std::vector<ChartCuts>& charts, const CutOutlines* outlines, const std::vector<CutPlace>& places,
                            std::vector<Preview>& out) const;
