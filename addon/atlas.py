@@ -16,6 +16,7 @@ from .core.atlas import stored_uvs
 from .core.cuts import plan_cut, seam_edges
 from .core.density import too_small
 from .core.request import prepare
+from .core.steps import to_its_end
 from .core.words import counted, titled
 
 
@@ -123,17 +124,23 @@ class Atlas:
         written = [replace(part.atlas, corner_uvs=joined.uvs_of(k, uvs)) for k, part in enumerate(self.parts)]
         return seams, written, self._prints_of(maps, [atlas.fingerprint() for atlas in written])
 
-    def _write_cut(self, objs, maps, result, uvs, _on_failure):
-        """What can fail is done for every object before the first is changed: divided faces are not put together again."""
-        rehearsed, seams = [], []
+    def _write_cut(self, objs, maps, result, uvs, on_failure):
+        """What can fail is done for every object before the first is divided: divided faces are not put together again."""
+        plans, divisions = [], []
         for k, (obj, uv_map) in enumerate(zip(objs, maps, strict=True)):
             cuts.check_divisible(obj)  # again: its mode may be another by now
-            plan = yield lambda k=k: plan_cut(self.parts[k].atlas, *self.request.joined.cut_of(k, result.cut, uvs))
-            rehearsed.append(cuts.rehearse_cut(obj, uv_map, plan, self.options.mark_seams))
-            seams.append(plan.new_seams)
-        for write in rehearsed:
-            write()
-        return seams, self._prints_of(maps, [print_of(obj.name, uv_map) for obj, uv_map in zip(objs, maps, strict=True)])
+            plans.append((yield lambda k=k: plan_cut(self.parts[k].atlas, *self.request.joined.cut_of(k, result.cut, uvs))))
+            divisions += yield from cuts.rehearse_cut(obj, uv_map, plans[k], self.options.mark_seams)
+        for part, obj, uv_map, plan in zip(self.parts, objs, maps, plans, strict=True):
+            on_failure.callback(bridge.write_uvs, obj, uv_map, part.atlas.corner_uvs)
+            yield from cuts.write_before_division(obj, uv_map, plan)
+        on_failure.pop_all()
+        yield from to_its_end(divisions)
+        prints = []
+        for obj, uv_map in zip(objs, maps, strict=True):
+            atlas = yield from bridge.read_in_steps(obj, uv_map)
+            prints.append((yield atlas.fingerprint))
+        return [plan.new_seams for plan in plans], self._prints_of(maps, prints)
 
     def _done(self, result, prints, seams=()):
         new_seams = tuple(zip((part.name for part in self.parts), seams, strict=False))

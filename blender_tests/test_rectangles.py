@@ -1,11 +1,14 @@
 """bpy.ops.uv.atlas_refine(seams='RECTANGLES') on Suzanne: what her mesh carries is linear in space, and is so after the cut."""
 
+import dataclasses
+import sys
 import unittest
+import unittest.mock
 
 import bmesh
 import bpy
 import numpy as np
-from support import add_mesh, changes, fresh_scene, get_uvs, packing_efficiency, set_uvs, snapshot
+from support import MODULE, add_mesh, changes, fresh_scene, get_uvs, packing_efficiency, set_uvs, snapshot
 
 
 def region(face):
@@ -197,3 +200,39 @@ class Rectangles(unittest.TestCase):
         self.assertEqual(bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut="SPLIT"), {"FINISHED"})
         self.assertIs(twin.data, obj.data)
         self.assertGreater(len(twin.data.polygons), faces)
+
+    def run_for(self, steps):
+        """Two objects, cut beside a window that is closed, or the add-on disabled, after so many steps of writing. Returns whether that
+        was before their end."""
+        fresh_scene()
+        objs = [add_mesh(name=name) for name in ("First", "Second")]
+        for obj in objs:
+            obj.select_set(True)
+        before = [snapshot(obj) for obj in objs]
+        if steps % 2:
+            bpy.ops.object.mode_set(mode="EDIT")
+        options = sys.modules[f"{MODULE}.properties"].to_options(bpy.context.scene.atlas_refine)
+        options = dataclasses.replace(options, seams="RECTANGLES", cut="SPLIT", write_to="COPY")
+        meshes = len(bpy.data.meshes)
+        run = sys.modules[f"{MODULE}.tasks"].Run(bpy.context, options, beside_window=True)
+        while not run.done:
+            run.step()
+        work = sys.modules[f"{MODULE}.core.steps"]._Work
+        with unittest.mock.patch.object(work, "start", work.run):  # each step goes on
+            ended = any(run.step() for _ in range(steps))
+        run.stop()
+        if steps % 2:
+            bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertEqual(len(bpy.data.meshes), meshes)
+        changed = [changes(held, snapshot(obj)) for held, obj in zip(before, objs, strict=True)]
+        divided = ["corner vertices" in names for names in changed]
+        self.assertIn(divided, ([False] * 2, [True] * 2), steps)
+        if not any(divided):
+            self.assertEqual(changed, [[], []])
+        return not ended
+
+    def test_whenever_it_is_stopped_all_is_as_before_or_cut(self):
+        steps = 0
+        while self.run_for(steps):
+            steps += 1
+        print(f"    {steps} steps")

@@ -7,62 +7,69 @@ import bmesh
 
 from . import versions
 
+#: Of faces or edges, before the window has its turn; a changed corner takes some 10 microseconds.
+ELEMENTS_OF_A_STEP = 1000
 
-def divide(mesh, uv_map, plan, mark_seams=True):
-    """Makes the BMesh the plan's mesh, in the plan's order, with the plan's UVs in the map and its new seams marked, or not. Where it
-    raises, the BMesh is half done: rehearse on a copy."""
-    verts, faces = list(mesh.verts), list(mesh.faces)
-    source_loops = _loops_by_corner(faces, plan.changed_faces())
+
+def divide_in_steps(mesh, uv_map, plan, mark_seams=True):
+    """Makes the BMesh the plan's mesh, in the plan's order, with the plan's UVs in the map where faces are changed, and its new seams
+    marked, or not. The first step only looks. Where it raises, the BMesh is half done: rehearse on a copy."""
+    mesh.verts.index_update()
+    verts, faces, changed = list(mesh.verts), list(mesh.faces), plan.changed_faces()
+    source_loops = _loops_by_corner(faces, changed, plan.source.face_offsets)
+    yield
     verts += [None] * len(plan.vertex_sources)
-    _split_edges(mesh, plan, verts)
+    yield from _split_edges(mesh, plan, verts)
     for vertex in range(plan.input_vertex_count, len(verts)):
         if verts[vertex] is None:  # inside of a face
             verts[vertex] = mesh.verts.new()
-    pieces = _make_pieces(mesh, plan, verts, faces)
-    _fill_corners(mesh, plan, verts, pieces, source_loops)
+    pieces = yield from _make_pieces(mesh, plan, verts, faces, changed)
+    yield from _fill_corners(mesh, plan, verts, pieces, source_loops)
     _place_new_vertices(mesh, plan, verts)
-    _remove_divided(mesh, faces, set(pieces))
+    yield
+    in_order = _remove_divided(mesh, faces, pieces)
     if mark_seams:
         _mark_seams(mesh, plan, verts)
-    _sort(verts, mesh.verts)
-    _sort(pieces, mesh.faces)
-    _write_uvs(mesh, uv_map, plan)
+    yield
+    _write_uvs(plan, verts, pieces, mesh.loops.layers.uv[uv_map])
+    yield
+    _sort(verts, mesh.verts, plan.input_vertex_count)
+    yield
+    _sort(in_order, mesh.faces)
 
 
-def _loops_by_corner(faces, wanted):
-    """The loops of the wanted faces by their corner's index in the whole mesh."""
-    starts = [0, *itertools.accumulate(len(face.loops) for face in faces)]
-    return {starts[face] + k: loop for face in wanted for k, loop in enumerate(faces[face].loops)}
+def _loops_by_corner(faces, changed, starts):
+    """The loops of the changed faces by their corner's index in the whole mesh."""
+    return {int(starts[face]) + k: loop for face, _, _ in changed for k, loop in enumerate(faces[face].loops)}
 
 
 def _split_edges(mesh, plan, verts):
     """BMesh's own edge split: edge marks, and whatever else an edge carries, hold for both halves."""
-    for split in plan.edge_splits:
+    for number, split in enumerate(plan.edge_splits, 1):
         last, reached = verts[split.start], 0.0
         for vertex, fraction in zip(split.vertices, split.fractions, strict=True):
             edge = mesh.edges.get((last, verts[split.end]))
             _, verts[vertex] = bmesh.utils.edge_split(edge, last, (fraction - reached) / (1.0 - reached))
             last, reached = verts[vertex], fraction
+        if number % ELEMENTS_OF_A_STEP == 0:
+            yield
 
 
-def _make_pieces(mesh, plan, verts, faces):
-    """The faces of the plan: an input face itself, which split edges have given its new corners, or those that divide it."""
-    pieces, corners = [], plan.atlas.corner_vertices.tolist()
-    outputs = zip(plan.face_sources.tolist(), _spans(plan), strict=True)
-    for source, group in itertools.groupby(outputs, key=lambda output: output[0]):
-        face, spans = faces[source], [span for _, span in group]
-        if len(spans) == 1:
-            pieces.append(face)
-            if len(face.verts) != spans[0][1] - spans[0][0]:
-                raise ValueError(f"the cut mesh does not fit the mesh: face {source} gains a corner off its edges")
+def _make_pieces(mesh, plan, verts, faces, changed):
+    """By changed face: (piece, its face in the plan). A face that only gains corners, which split edges have given it, is its own."""
+    pieces, corners = {}, plan.atlas.corner_vertices
+    for number, (source, first, end) in enumerate(changed, 1):
+        face, spans = faces[source], [plan.corners_of(k) for k in range(first, end)]
+        if len(spans) > 1:
+            made = [_make_piece(mesh, [verts[vertex] for vertex in corners[a:b].tolist()], face) for a, b in spans]
+        elif len(face.verts) == spans[0][1] - spans[0][0]:
+            made = [face]
         else:
-            pieces += [_make_piece(mesh, [verts[vertex] for vertex in corners[begin:end]], face) for begin, end in spans]
+            raise ValueError(f"the cut mesh does not fit the mesh: face {source} gains a corner off its edges")
+        pieces[source] = list(zip(made, range(first, end), strict=True))
+        if number % ELEMENTS_OF_A_STEP == 0:
+            yield
     return pieces
-
-
-def _spans(plan):
-    """(first corner, end) of each face of the plan."""
-    return itertools.pairwise(plan.atlas.face_offsets.tolist())
 
 
 def _make_piece(mesh, cycle, face):
@@ -102,14 +109,14 @@ class _Sampler:
 
 def _fill_corners(mesh, plan, verts, pieces, source_loops):
     """Gives the corners of changed faces, and the new vertices, what the corners carry of which they are the mean."""
-    sampler, filled, changed = _Sampler(mesh), set(), plan.changed_faces()
-    vertices, weights = plan.atlas.corner_vertices.tolist(), plan.corner_weights.tolist()
-    for piece, face, (begin, end) in zip(pieces, plan.face_sources.tolist(), _spans(plan), strict=True):
-        if face not in changed:
-            continue
-        sources = [[source_loops[corner] for corner in three] for three in plan.corner_sources[begin:end].tolist()]
+    sampler, filled = _Sampler(mesh), set()
+    for number, (piece, face) in enumerate(_each(pieces), 1):
+        span = slice(*plan.corners_of(face))
+        sources = [[source_loops[corner] for corner in three] for three in plan.corner_sources[span].tolist()]
         place = {loop.vert: k for k, loop in enumerate(piece.loops)}
-        for vertex, three, means in zip(vertices[begin:end], sources, weights[begin:end], strict=True):
+        for vertex, three, means in zip(
+            plan.atlas.corner_vertices[span].tolist(), sources, plan.corner_weights[span].tolist(), strict=True
+        ):
             k = place[verts[vertex]]
             heaviest = three[means.index(max(means))]
             if piece.loops[k] != heaviest:
@@ -118,7 +125,14 @@ def _fill_corners(mesh, plan, verts, pieces, source_loops):
                 sampler.fill(piece.loops[k], three, means, vertex not in filled)
                 filled.add(vertex)
                 _set_uvs_exactly(mesh, piece.loops[k], three, means)
+        if number % ELEMENTS_OF_A_STEP == 0:
+            yield
     sampler.remove(mesh)
+
+
+def _each(pieces):
+    """(piece, its face in the plan) of all changed faces."""
+    return itertools.chain.from_iterable(pieces.values())
 
 
 def _set_uvs_exactly(mesh, loop, sources, weights):
@@ -144,16 +158,21 @@ def _place_new_vertices(mesh, plan, verts):
 
 
 def _remove_divided(mesh, faces, pieces):
-    """The input faces that others have replaced."""
-    for face in faces:
-        if face not in pieces:
-            mesh.faces.remove(face)
+    """The changed faces that others have replaced. Returns all that there are then, in the plan's order."""
+    in_order, reached = [], 0
+    for source, made in pieces.items():
+        in_order += faces[reached:source] + [piece for piece, _ in made]
+        reached = source + 1
+        if made[0][0] != faces[source]:
+            mesh.faces.remove(faces[source])
+    return in_order + faces[reached:]
 
 
-def _sort(elements, sequence):
-    """Puts a sequence of the BMesh in the order of `elements`, which thereafter stand for others: Python holds on to places."""
-    for index, element in enumerate(elements):
-        element.index = index
+def _sort(elements, sequence, first=0):
+    """Puts a sequence of the BMesh in the order of `elements`, which thereafter stand for others: Python holds on to places. Those
+    before the first one have their index."""
+    for index in range(first, len(elements)):
+        elements[index].index = index
     sequence.sort()
 
 
@@ -162,13 +181,10 @@ def _mark_seams(mesh, plan, verts):
         mesh.edges.get((verts[a], verts[b])).seam = True
 
 
-def _write_uvs(mesh, uv_map, plan):
-    layer = mesh.loops.layers.uv[uv_map]
-    vertices, uvs = plan.atlas.corner_vertices.tolist(), plan.atlas.corner_uvs.tolist()
-    for face, (begin, end) in zip(mesh.faces, _spans(plan), strict=True):
-        loops = list(face.loops)
-        if loops[0].vert.index != vertices[begin]:
-            start = next(k for k, loop in enumerate(loops) if loop.vert.index == vertices[begin])
-            loops = loops[start:] + loops[:start]
-        for loop, uv in zip(loops, uvs[begin:end], strict=True):
+def _write_uvs(plan, verts, pieces, layer):
+    for piece, face in _each(pieces):
+        span = slice(*plan.corners_of(face))
+        loops, first = list(piece.loops), verts[plan.atlas.corner_vertices[span.start]]
+        start = next(k for k, loop in enumerate(loops) if loop.vert == first)
+        for loop, uv in zip(loops[start:] + loops[:start], plan.atlas.corner_uvs[span].tolist(), strict=True):
             loop[layer].uv = uv

@@ -81,7 +81,7 @@ def write_in_steps(obj, uv_map, uvs):
     """The same. What is half written is not drawn, and nothing may change the mesh meanwhile."""
     mesh = obj.data
     if obj.mode == "EDIT":
-        yield from _write_edit_mesh(bmesh.from_edit_mesh(mesh), uv_map, uvs)
+        yield from write_edit_mesh(bmesh.from_edit_mesh(mesh), uv_map, uvs)
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
     else:
         versions.write_uvs(mesh.uv_layers[uv_map], uvs)
@@ -191,7 +191,8 @@ def _positions(mesh):
     return positions.reshape(-1, 3)
 
 
-def _write_edit_mesh(mesh, uv_map, uvs):
+def write_edit_mesh(mesh, uv_map, uvs):
+    """In steps, of a BMesh; nothing is drawn anew."""
     layer = _edit_layer(mesh, uv_map)
     rows = zip(*uvs.T.tolist(), strict=True)  # one after the other: a list of all would keep Python's garbage collector busy
     for number, face in enumerate(mesh.faces, 1):

@@ -20,6 +20,7 @@ class EdgeSplit:
 
 @dataclass(frozen=True)
 class CutPlan:
+    source: AtlasArrays  # the input: the mesh as it is
     atlas: AtlasArrays  # the mesh as it will be: the input's vertices, then the new ones
     face_sources: np.ndarray  # (F',) the input face that each face is part of
     corner_sources: np.ndarray  # (C', 3) input corners of that face, whose mean a corner is
@@ -31,14 +32,34 @@ class CutPlan:
 
     @property
     def input_vertex_count(self):
-        return len(self.atlas.positions) - len(self.vertex_sources)
+        return len(self.source.positions)
 
     def changed_faces(self):
-        """The input faces that are divided or gain corners, as a set."""
+        """The input faces that are divided or gain corners, in order, each with its (first, end) among the faces as they will be."""
         faces = np.repeat(self.face_sources, np.diff(self.atlas.face_offsets))
         gaining = faces[self.atlas.corner_vertices >= self.input_vertex_count]
         divided = self.face_sources[1:][self.face_sources[1:] == self.face_sources[:-1]]
-        return set(gaining.tolist()) | set(divided.tolist())
+        changed = np.union1d(gaining, divided)
+        ends = (np.searchsorted(self.face_sources, changed, side) for side in ("left", "right"))
+        return list(zip(changed.tolist(), *(end.tolist() for end in ends), strict=True))
+
+    def corners_of(self, face):
+        """The first one, and the end."""
+        return self.atlas.face_offsets[face], self.atlas.face_offsets[face + 1]
+
+    def holds_changed(self, uvs, corners):
+        """Whether the corners, the plan's, have its UVs in all faces that are changed, to the last bit."""
+        changed = np.zeros(len(self.source.face_offsets) - 1, dtype=bool)
+        changed[[face for face, _, _ in self.changed_faces()]] = True
+        rows = np.repeat(changed[self.face_sources], np.diff(self.atlas.face_offsets))[corners]
+        return uvs[rows].tobytes() == self.atlas.corner_uvs[corners][rows].tobytes()
+
+    def uvs_before_division(self):
+        """(C, 2) of the input's corners: what those that stay will hold."""
+        uvs, stay = self.source.corner_uvs.copy(), self.corner_weights.max(axis=1) == 1
+        heaviest = self.corner_weights[stay].argmax(axis=1)
+        uvs[self.corner_sources[stay, heaviest]] = self.atlas.corner_uvs[stay]
+        return uvs
 
     def directions(self, source_directions):
         """Unit vectors of the input's corners, such as normals, for the corners of the mesh as it will be."""
@@ -61,6 +82,7 @@ def plan_cut(source, cut, corner_uvs):
     atlas = AtlasArrays(positions, cut.face_offsets, corner_vertices, corner_uvs)
     _check_places(source, atlas, corner_sources, corner_weights)
     return CutPlan(
+        source=source,
         atlas=atlas,
         face_sources=cut.face_sources,
         corner_sources=corner_sources,

@@ -12,6 +12,19 @@ def at_once(generator):
     return steps.result
 
 
+def to_its_end(functions):
+    """In steps, a function each. Once it has begun it comes to its end: closed meanwhile, it calls the others at once."""
+    waiting = iter(functions)
+    for function in waiting:
+        function()
+        try:
+            yield
+        except GeneratorExit:
+            for other in waiting:
+                other()
+            raise
+
+
 class Steps:
     """A generator that is run piece by piece."""
 

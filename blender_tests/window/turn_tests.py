@@ -58,10 +58,10 @@ def timed(what, mode, **options):
     assert longest < MOST_SECONDS
 
 
-def measured(mode, pe_bound):
+def measured(mode, pe_bound, intervention="squeezed", **options):
     tasks().last = None
-    yield from timed("atlas_refine", mode, pe_bound=pe_bound)
-    assert tasks().last[0].result.intervention != "unchanged"
+    yield from timed("atlas_refine", mode, pe_bound=pe_bound, **options)
+    assert tasks().last[0].result.intervention == intervention, tasks().last[0].result.intervention
 
 
 def test_the_window_never_waits_for_long():
@@ -72,6 +72,20 @@ def test_the_window_never_waits_for_long():
     yield from measured("edit mode", 0.9)
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.data.objects.remove(obj)
+
+
+def test_the_window_does_not_wait_for_cuts_across_faces():
+    how = {"seams": "RECTANGLES", "cut": "SPLIT", "aspect": "SQUARE", "intervention": "cut"}
+    for mode in ("object mode", "edit mode"):
+        bpy.context.view_layer.update()  # the last one's object is gone
+        obj = large_mesh()
+        bpy.context.view_layer.objects.active = obj
+        if mode == "edit mode":
+            enter_edit_mode()
+        yield from measured(mode, 0.95, **how)
+        bpy.ops.object.mode_set(mode="OBJECT")
+        assert len(obj.data.polygons) > 3 * QUADS
+        bpy.data.objects.remove(obj)
 
 
 def test_the_window_does_not_wait_for_a_look():
