@@ -12,10 +12,16 @@ from .changes import no_longer, once_drawn
 PAUSE_SECONDS = 0.2
 
 
+class Place(NamedTuple):
+    """Of a call: addresses, as Blender's own objects may be gone by then."""
+
+    window: int
+    area: int
+
+
 class Asked(NamedTuple):
     options: tuple  # of tasks.Run
-    window: int  # addresses: Blender's own objects may be gone by then
-    area: int
+    place: Place
     shows_panel: bool  # Blender's, in the corner of the area
 
 
@@ -32,9 +38,15 @@ def ask(context, options):
     global _asked
     regions = context.area.regions if context.area else ()
     shows_panel = any(region.type == "HUD" and region.width > 1 for region in regions)
-    _asked = Asked(options, context.window.as_pointer(), context.area.as_pointer() if context.area else 0, shows_panel)
+    _asked = Asked(options, _place_of(context), shows_panel)
     no_longer(_begin)
     once_drawn(_begin, PAUSE_SECONDS)
+
+
+def once_more(context, operator):
+    """Begins an operator that changes nothing anew."""
+    place, name = _place_of(context), type(operator).bl_idname.removeprefix("uv.")
+    once_drawn(lambda: _invoke(place, getattr(bpy.ops.uv, name)))
 
 
 def take():
@@ -51,25 +63,33 @@ def show_panel(asked):
 
 
 def _show_panel(asked):
-    window, area = _place(asked)
+    window, area = _find(asked.place)
     if area is not None and area.spaces.active.show_region_hud:
         with bpy.context.temp_override(window=window, area=area):
             area.spaces.active.show_region_hud = True  # shows it anew
 
 
 def _begin():
-    window, area = _place(_asked)
+    _invoke(_asked.place, bpy.ops.uv.atlas_refine_again)
+
+
+def _invoke(place, operator):
+    window, area = _find(place)
     region = next((region for region in area.regions if region.type == "WINDOW"), None) if area else None
     with bpy.context.temp_override(window=window, area=area, region=region):
-        if bpy.ops.uv.atlas_refine_again.poll():
-            bpy.ops.uv.atlas_refine_again("INVOKE_DEFAULT")
+        if operator.poll():
+            operator("INVOKE_DEFAULT")
 
 
-def _place(asked):
+def _place_of(context):
+    return Place(context.window.as_pointer(), context.area.as_pointer() if context.area else 0)
+
+
+def _find(place):
     """(window, area), of which the area may be None."""
     windows = list(bpy.context.window_manager.windows)
-    window = next((window for window in windows if window.as_pointer() == asked.window), windows[0])
-    return window, next((area for area in window.screen.areas if area.as_pointer() == asked.area), None)
+    window = next((window for window in windows if window.as_pointer() == place.window), windows[0])
+    return window, next((area for area in window.screen.areas if area.as_pointer() == place.area), None)
 
 
 def unregister():

@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import drawing, tasks
+from . import again, drawing, tasks
 from .bridge import parts as objects
 from .core.words import phase, plain, titled
 
@@ -41,6 +41,9 @@ class Runs(OnObjects):
     """An operator with _start(context, beside_window), a tasks.Run or None, and _finish(run), what Blender is answered."""
 
     def execute(self, context):
+        if "UNDO" not in self.bl_options and again.is_asked(context, self):
+            again.once_more(context, self)
+            return {"CANCELLED"}  # its end is that of the other
         run = self._start(context)
         if run is None or not self._has_work(run):
             return {"CANCELLED"}

@@ -23,6 +23,7 @@ from driver import (
     RESULT,
     ROW,
     SEAMS,
+    SHOW_TRADE_OFF,
     STEP_SECONDS,
     TAB,
     TAB_3D,
@@ -142,14 +143,18 @@ def test_seams_as_needed_by_clicks():
     assert tasks().last[0].result.cuts.cuts == 2
     yield from key("Z", ctrl=True)
     yield from until(lambda: uvs(bpy.data.objects["Sheet"]).tobytes() == before.tobytes(), "one undo does not take it back")
-    bpy.ops.uv.atlas_refine_trade_off("INVOKE_DEFAULT")
-    assert running()
+    yield from click(SHOW_TRADE_OFF)
+    yield from until(running, "the button does not search")
     assert not bpy.ops.uv.atlas_refine_keep_best.poll()
     yield lambda: not running()
     yield 0.5
     picture("trade-off")
     assert uvs(bpy.data.objects["Sheet"]).tobytes() == before.tobytes()
     seams, distortion, _ = sys.modules[f"{MODULE}.trade_off"].shown.lines[2]
+    yield from key("R", shift=True, over=(uv_editor().x + 300, uv_editor().y + 300))
+    yield from until(running, "Repeat Last does not search again beside the window")
+    yield lambda: not running()
+    yield 0.5
     tasks().last = None
     yield from click(THIRD_USE)
     yield finished

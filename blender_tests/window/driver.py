@@ -27,6 +27,7 @@ WAIT_LIMIT_SECONDS = 240  # only what hangs takes as long
 TAB = (10, 130)
 SEAMS = (84, 156)
 BUTTON = (122, 80)
+SHOW_TRADE_OFF = (125, 543)
 THIRD_USE = (61, 638)  # of the lines of a trade-off
 TAB_3D = 138  # the same tab in the 3D view, from the top edge, where no object is active
 ROW = 23
