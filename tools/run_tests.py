@@ -102,8 +102,12 @@ def in_blender(blender, cache):
 
 
 def in_window(blender):
-    result = fresh(RESULTS / "window.json")
-    return from_json(result, run([sys.executable, ROOT / "blender_tests" / "window" / "run.py", blender.executable, result]))
+    counts = Counts()
+    for name, word in (("window", []), ("five-clicks", ["--five-clicks"])):
+        result = fresh(RESULTS / f"{name}.json")
+        script = ROOT / "blender_tests" / "window" / "run.py"
+        counts += from_json(result, run([sys.executable, script, blender.executable, result, *word]))
+    return counts
 
 
 def suites(arguments):

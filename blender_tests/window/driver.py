@@ -18,9 +18,9 @@ import numpy as np
 import shapes
 from support import MODULE, add_mesh, get_uvs
 
-_ARGUMENTS = sys.argv[sys.argv.index("--") + 1 :]
-RESULT = pathlib.Path(_ARGUMENTS[0])
-WORD = "".join(_ARGUMENTS[1:])  # only tests whose names hold it
+ARGUMENTS = sys.argv[sys.argv.index("--") + 1 :]
+RESULT = pathlib.Path(ARGUMENTS[0])
+WORD = "".join(ARGUMENTS[1:])  # only tests whose names hold it
 STEP_SECONDS = 0.05
 WAIT_LIMIT_SECONDS = 240  # only what hangs takes as long
 #: Where things are in the sidebar of Blender 3.4.1's UV editor, in pixels from its right and top edge.
@@ -59,12 +59,13 @@ def click(offset):
     yield from click_at(*point(offset))
 
 
-def click_at(x, y):
-    window().event_simulate("MOUSEMOVE", "NOTHING", x=x, y=y)
+def click_at(x, y, of=None):
+    of = of or window()
+    of.event_simulate("MOUSEMOVE", "NOTHING", x=x, y=y)
     yield 0.2
-    window().event_simulate("LEFTMOUSE", "PRESS", x=x, y=y)
+    of.event_simulate("LEFTMOUSE", "PRESS", x=x, y=y)
     yield 0.1
-    window().event_simulate("LEFTMOUSE", "RELEASE", x=x, y=y)
+    of.event_simulate("LEFTMOUSE", "RELEASE", x=x, y=y)
     yield 0.2
 
 
