@@ -55,7 +55,7 @@ def install(archive):
     yield SETTLED
 
 
-def test_from_the_zip_to_the_result(archive=pathlib.Path(ARGUMENTS[1]).resolve()):
+def from_the_zip_to_the_result(archive):
     obj = bpy.data.objects["Cube"]
     before = uvs(obj)
     yield from install(archive)
@@ -77,7 +77,7 @@ def test_from_the_zip_to_the_result(archive=pathlib.Path(ARGUMENTS[1]).resolve()
 def drive():
     yield 1.0
     try:
-        for step in test_from_the_zip_to_the_result():
+        for step in from_the_zip_to_the_result(pathlib.Path(ARGUMENTS[1]).resolve()):
             yield from driver.wait(step)
         print("from the zip to the result ... ok", flush=True)
         failed = 0
