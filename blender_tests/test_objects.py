@@ -260,10 +260,31 @@ class AllOrNothing(unittest.TestCase):
         self.check("mesh", "write_in_steps", 2, seams="RECTANGLES")
 
     def test_with_cuts_across_faces(self):
-        self.check("cuts", "divide", 2, seams="RECTANGLES", cut="SPLIT")
+        self.check("cuts", "divide_in_steps", 2, seams="RECTANGLES", cut="SPLIT")
 
     def test_with_cuts_across_faces_and_copies(self):
-        self.check("cuts", "divide", 2, seams="RECTANGLES", cut="SPLIT", write_to="COPY")
+        self.check("cuts", "divide_in_steps", 2, seams="RECTANGLES", cut="SPLIT", write_to="COPY")
+
+    def test_with_cuts_across_faces_in_edit_mode(self):
+        """The UVs of the first are half written by then."""
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        where, calls = sys.modules[f"{MODULE}.bridge.cuts"], []
+        original = where.write_edit_mesh
+
+        def failing(*arguments):
+            yield from original(*arguments)
+            calls.append(arguments)
+            if len(calls) == 2:
+                raise sys.modules[f"{MODULE}.bridge.mesh"].MeshError("as the test has it")
+
+        bpy.ops.object.mode_set(mode="OBJECT")
+        before = [snapshot(obj) for obj in self.objs]
+        bpy.ops.object.mode_set(mode="EDIT")
+        with unittest.mock.patch.object(where, "write_edit_mesh", failing), self.assertRaisesRegex(RuntimeError, "as the test"):
+            bpy.ops.uv.atlas_refine(uv_map="UVMap", seams="RECTANGLES", cut="SPLIT")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertEqual([changes(held, snapshot(obj)) for obj, held in zip(self.objs, before, strict=True)], [[], []])
 
     def test_where_one_has_no_room_for_a_copy(self):
         for k in range(6):
