@@ -3,7 +3,7 @@
 import threading
 
 import pytest
-from core.steps import Steps, at_once
+from core.steps import Steps, at_once, to_its_end
 
 
 def main_thread():
@@ -77,3 +77,15 @@ def test_errors_come_out():
     with pytest.raises(ZeroDivisionError):
         steps.finish()
     assert steps.done
+
+
+def test_what_must_come_to_its_end_does_so_where_it_is_stopped():
+    log = []
+    functions = [lambda k=k: log.append(k) for k in range(3)]
+    steps = Steps(to_its_end(functions))
+    steps.step()
+    assert log == [0]
+    steps.stop()
+    assert log == [0, 1, 2]
+    at_once(to_its_end(functions))
+    assert log == [0, 1, 2] * 2
