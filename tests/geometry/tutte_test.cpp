@@ -41,7 +41,7 @@ class Tutte : public ::testing::TestWithParam<int> {
 
 TEST_P(Tutte, IsABijectionOntoADiskOfTheSurfacesArea) {
   Chart embedded = chart();
-  embedded.uvs = tutte_disk(embedded);
+  embedded.uvs = tutte_disk(embedded, fill_by_fans(embedded, longest_loop(embedded)));
   testing::expect_certified({embedded});
   const double radius = std::sqrt(surface_area(embedded) / std::acos(-1));
   double farthest = 0;
@@ -52,6 +52,15 @@ TEST_P(Tutte, IsABijectionOntoADiskOfTheSurfacesArea) {
   }
   EXPECT_NEAR(farthest, radius, 1e-9 * radius);
   EXPECT_EQ(on_circle, static_cast<int>(embedded.boundary_loops.front().size()));
+}
+
+TEST_P(Tutte, IsOneWithHolesFilledAsTheUvsHaveThem) {
+  Chart embedded = chart();
+  const Filling filling = fill_as_in_uvs(embedded, longest_loop(embedded));
+  EXPECT_TRUE(filling.fans.empty());
+  EXPECT_EQ(filling.triangles.empty(), embedded.boundary_loops.size() == 1);
+  embedded.uvs = tutte_disk(embedded, filling);
+  testing::expect_certified({embedded});
 }
 
 INSTANTIATE_TEST_SUITE_P(DiskRingOverlapTwoHoles, Tutte, ::testing::Range(0, 4));

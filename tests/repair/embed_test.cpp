@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "charts.h"
+#include "geometry/tutte.h"
+#include "measure/certificate.h"
 #include "shapes.h"
 #include "support/profile.h"
 
@@ -61,6 +63,20 @@ TEST(Embed, ALongRibbonBecomesStraight) {
 TEST(Embed, ATallTubeCutOpenBecomesFlat) {
   const Chart tube = sheet(24, 300, false, [](int i, int j) { return on_tube(i, j, 24, 3.8 + 1e-3 * i); });
   EXPECT_LT(embedded_energy(tube), 1.001);
+}
+
+TEST(Embed, AFlapFarIntoAHoleIsNotDrawnIntoAPoint) {
+  constexpr double kLength = 150;
+  shapes::Polygon sheet = shapes::rectangle(kLength + 50, 120);
+  // The border of the hole runs around the flap, which is 2 wide.
+  const std::vector<Vec2> hole = {{20, 45}, {24 + kLength, 45}, {24 + kLength, 55}, {20, 55},
+                                  {20, 51}, {20 + kLength, 51}, {20 + kLength, 49}, {20, 49}};
+  sheet.holes.emplace_back(hole.rbegin(), hole.rend());
+  const Chart chart = testing::charts_of(shapes::mesh(sheet, 1)).front();
+  Chart disk = chart;
+  disk.uvs = tutte_disk(chart, fill_by_fans(chart, longest_loop(chart)));
+  EXPECT_FALSE(certify_charts({disk}).valid());
+  EXPECT_LT(embedded_energy(chart), 1.001);
 }
 
 TEST(Embed, ATallTubeWithoutASeamBecomesARing) {

@@ -206,7 +206,7 @@ void collect(const Chart& chart, const Mesh& mesh, Decimation& out) {
     out.mesh.triangles.push_back({entry[a], entry[b], entry[c]});
     shapes.push_back(rest_from_sides(mesh.lengths[t]));
   }
-  out.mesh.uvs.assign(out.kept.size(), Vec2::Zero());
+  for (const int v : out.kept) out.mesh.uvs.push_back(chart.uvs[v]);
   out.mesh.surface = Surface(std::move(shapes));
   out.mesh.triangle_faces.assign(out.mesh.triangles.size(), chart.triangle_faces.front());
   out.mesh.boundary_loops = chart.boundary_loops;

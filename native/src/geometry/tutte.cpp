@@ -36,20 +36,21 @@ Edges guarded_diagonals(const Chart& chart) {
   return out;
 }
 
-/// Undirected edges of the chart with its inner loops filled, without those `left_out`, each once per adjacent triangle: interior
-/// edges count twice.
-Edges filled_edges(const Chart& chart, std::size_t outer, const Edges& left_out) {
+/// Undirected edges of the filled chart, without those `left_out`, each once per adjacent triangle, those of fans once: most
+/// interior edges count twice.
+Edges filled_edges(const Chart& chart, const Filling& filling, const Edges& left_out) {
   Edges edges;
-  for (const Triangle& t : chart.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      const int from = t[k], to = t[(k + 1) % 3];
-      const std::pair<int, int> edge = std::minmax(from, to);
-      if (!std::binary_search(left_out.begin(), left_out.end(), edge)) edges.emplace_back(from, to);
+  for (const auto* triangles : {&chart.triangles, &filling.triangles}) {
+    for (const Triangle& t : *triangles) {
+      for (int k = 0; k < 3; ++k) {
+        const int from = t[k], to = t[(k + 1) % 3];
+        const std::pair<int, int> edge = std::minmax(from, to);
+        if (!std::binary_search(left_out.begin(), left_out.end(), edge)) edges.emplace_back(from, to);
+      }
     }
   }
   int hidden = chart.vertex_count();
-  for (std::size_t l = 0; l < chart.boundary_loops.size(); ++l) {
-    if (l == outer) continue;
+  for (const std::size_t l : filling.fans) {
     for (int v : chart.boundary_loops[l]) edges.emplace_back(v, hidden);
     ++hidden;
   }
@@ -57,8 +58,10 @@ Edges filled_edges(const Chart& chart, std::size_t outer, const Edges& left_out)
 }
 
 /// Every vertex at the mean of its neighbours, loop `outer` on the polygon.
-std::vector<Vec2> at_means(const Chart& chart, std::size_t outer, const std::vector<Vec2>& polygon, const Edges& edges) {
-  const int count = chart.vertex_count() + static_cast<int>(chart.boundary_loops.size()) - 1;
+std::vector<Vec2> at_means(const Chart& chart, std::size_t outer, const std::vector<Vec2>& polygon, const Filling& filling,
+                           const Edges& left_out) {
+  const Edges edges = filled_edges(chart, filling, left_out);
+  const int count = chart.vertex_count() + static_cast<int>(filling.fans.size());
   std::vector<Vec2> uvs(count, Vec2::Zero());
   std::vector<char> fixed(count, 0);
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -103,7 +106,7 @@ std::size_t longest_loop(const Chart& chart) {
   return std::max_element(lengths.begin(), lengths.end()) - lengths.begin();
 }
 
-std::vector<Vec2> tutte_disk(const Chart& chart) {
+std::vector<Vec2> tutte_disk(const Chart& chart, const Filling& filling) {
   constexpr double kLeastEdge = 0.25;  // of the mean edge: on the circle triangles with two short boundary edges would vanish
   const Boundary boundary = make_boundary({chart}, {0});
   const std::size_t outer = longest_loop(chart);
@@ -117,11 +120,11 @@ std::vector<Vec2> tutte_disk(const Chart& chart) {
     const double angle = 2 * std::numbers::pi * part / ((1 + kLeastEdge) * length);
     circle.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
   }
-  return at_means(chart, outer, circle, filled_edges(chart, outer, guarded_diagonals(chart)));
+  return at_means(chart, outer, circle, filling, guarded_diagonals(chart));
 }
 
 std::vector<Vec2> tutte(const Chart& chart, std::size_t outer, const std::vector<Vec2>& polygon) {
-  return at_means(chart, outer, polygon, filled_edges(chart, outer, {}));
+  return at_means(chart, outer, polygon, fill_by_fans(chart, outer), {});
 }
 
 }  // namespace atlas_refine

@@ -39,33 +39,33 @@ bool has_many(const Chart& chart) {
   return chart.triangles.size() >= kMany;
 }
 
-/// The triangles on the surface's shapes, the outer boundary where it is, every other loop filled by a fan around a new vertex.
+/// The triangles on the surface's shapes, the outer boundary where it is, every other loop filled.
 /// With the outer boundary convex, all of them positive means an embedding, with polygons convex where they have guards.
-Tangle filled_disk(const Chart& chart, std::size_t outer, std::vector<Vec2>& uvs) {
+Tangle filled_disk(const Chart& chart, const Filling& filling, std::vector<Vec2>& uvs) {
   Tangle out;
   const double least = kLeastWeight * chart.surface.area() / static_cast<double>(chart.triangles.size());
+  const auto fill = [&](const Triangle& triangle) {
+    out.triangles.push_back(triangle);
+    out.inverse_edges.push_back(rest_equilateral(least).inverse_edges);
+    out.weights.push_back(least);
+  };
   for_each_element(chart, [&](const Triangle& triangle, const RestTriangle& rest, double share, int) {
     out.triangles.push_back(triangle);
     out.inverse_edges.push_back(rest.inverse_edges);
     out.weights.push_back(std::max(least, share * rest.area));
   });
-  for (std::size_t l = 0; l < chart.boundary_loops.size(); ++l) {
-    if (l == outer) continue;
+  for (const Triangle& triangle : filling.triangles) fill(triangle);
+  for (const std::size_t l : filling.fans) {
     const std::vector<int>& loop = chart.boundary_loops[l];
     const int hidden = static_cast<int>(uvs.size());
     Vec2 middle = Vec2::Zero();
     for (const int v : loop) middle += uvs[v] / static_cast<double>(loop.size());
     uvs.push_back(middle);
-    const RestTriangle rest = rest_equilateral(least);
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      // The chart lies on the left of the loop, the hole on its right.
-      out.triangles.push_back({loop[(k + 1) % loop.size()], loop[k], hidden});
-      out.inverse_edges.push_back(rest.inverse_edges);
-      out.weights.push_back(least);
-    }
+    // The chart lies on the left of the loop, the hole on its right.
+    for (std::size_t k = 0; k < loop.size(); ++k) fill({loop[(k + 1) % loop.size()], loop[k], hidden});
   }
   out.fixed.assign(uvs.size(), 0);
-  for (const int v : chart.boundary_loops[outer]) out.fixed[v] = 1;
+  for (const int v : chart.boundary_loops[longest_loop(chart)]) out.fixed[v] = 1;
   return out;
 }
 
@@ -101,9 +101,9 @@ Chart validly_stretched(const Chart& chart) {
 }
 
 /// The disk with its parts evened out; nothing where that made it invalid.
-std::optional<Chart> evened(const Chart& disk, bool valid, int threads, Monitor& monitor) {
+std::optional<Chart> evened(const Chart& disk, const Filling& filling, bool valid, int threads, Monitor& monitor) {
   std::vector<Vec2> filled = disk.uvs;
-  Tangle tangle = filled_disk(disk, longest_loop(disk), filled);
+  Tangle tangle = filled_disk(disk, filling, filled);
   tangle.stays_positive = valid && all_guards_hold(disk);
   auto uvs = untangle(tangle, std::move(filled), threads, monitor);
   if (!uvs) return std::nullopt;
@@ -121,26 +121,34 @@ Chart without_guards(Chart chart) {
 
 /// Tutte's embedding of the polygons, all convex; where that has flat triangles, as it has around vertices of two polygons only,
 /// that of their triangles.
-Chart tutte_start(const Chart& chart) {
+Chart tutte_start(const Chart& chart, const Filling& filling) {
   Chart disk = chart;
-  disk.uvs = tutte_disk(chart);
+  disk.uvs = tutte_disk(chart, filling);
   if (chart.guards.empty() || certify_charts({disk}).valid()) return disk;
-  disk.uvs = tutte_disk(without_guards(chart));
+  disk.uvs = tutte_disk(without_guards(chart), filling);
   return disk;
 }
 
 /// A valid start. Tutte's embedding is one but for rounding, yet parts that it shrinks too much would hold the way down up: those
 /// are evened out first.
-std::optional<Chart> on_disk(const Chart& chart, int threads, Monitor& monitor) {
-  const Chart disk = tutte_start(chart);
+std::optional<Chart> on_disk(const Chart& chart, const Filling& filling, int threads, Monitor& monitor) {
+  const Chart disk = tutte_start(chart, filling);
   const bool valid = certify_charts({disk}).valid();
   if (valid && dirichlet_sums(without_guards(stretched(disk))).best_energy() < kGentle) return disk;
-  if (const auto even = evened(disk, valid, threads, monitor)) return even;
+  if (const auto even = evened(disk, filling, valid, threads, monitor)) return even;
   if (!disk.guards.empty()) {
-    if (const auto even = evened(without_guards(disk), valid, threads, monitor)) return even;
+    if (const auto even = evened(without_guards(disk), filling, valid, threads, monitor)) return even;
   }
   if (!valid) return std::nullopt;
   return disk;
+}
+
+/// A fan draws a long flap into its one vertex, beyond what doubles can tell apart.
+std::optional<Chart> on_disk(const Chart& chart, int threads, Monitor& monitor) {
+  const std::size_t outer = longest_loop(chart);
+  auto disk = on_disk(chart, fill_by_fans(chart, outer), threads, monitor);
+  if (disk || chart.boundary_loops.size() == 1) return disk;
+  return on_disk(chart, fill_as_in_uvs(chart, outer), threads, monitor);
 }
 
 /// The shapes that the chart has in its UVs, at the surface's scale.
