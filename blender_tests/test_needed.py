@@ -74,7 +74,7 @@ class Needed(unittest.TestCase):
         obj = add_c()
         faces = len(obj.data.polygons)
         # So many cuts that not all of them can lie on edges.
-        self.assertIn("cuts", self.refine(max_distortion=1.003, cut="SPLIT"))
+        self.assertIn("cuts", self.refine(max_distortion=1.0005, cut="SPLIT"))
         self.assertGreater(len(obj.data.polygons), faces)
         self.assertEqual([edge.use_seam for edge in obj.data.edges], torn_edges(obj.data))
         self.assertFalse(obj.data.validate(verbose=True))
