@@ -40,17 +40,8 @@ def main(blender, result, *word):
                 install = [blender, "-b", "--factory-startup", "--python-exit-code", "1"]
                 install += ["--python", HERE.parent / "install_addon.py", "--", archive]
                 subprocess.run(install, env=environment, check=True)
-            drive = [
-                blender,
-                "--factory-startup",
-                "--enable-event-simulate",
-                "--window-geometry",
-                "0",
-                "0",
-                *SIZE,
-                "--python",
-                *script,
-            ]
+            drive = [blender, "--factory-startup", "--enable-event-simulate", "--window-geometry", "0", "0", *SIZE]
+            drive += ["--python", *script]
             return subprocess.run(drive, env=environment, check=False, timeout=TIMEOUT_SECONDS).returncode
     finally:
         server.terminate()

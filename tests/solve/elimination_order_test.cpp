@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "solve/separator.h"
+#include "solve/supernodes.h"
 #include "support/rng.h"
 
 namespace atlas_refine {
@@ -44,12 +45,14 @@ Edges rectangle_edges(int width, int height) {
   return edges;
 }
 
-int count_of(const std::vector<Half>& sides, Half side) { return static_cast<int>(std::count(sides.begin(), sides.end(), side)); }
+int count_of(const std::vector<GraphSide>& sides, GraphSide side) {
+  return static_cast<int>(std::count(sides.begin(), sides.end(), side));
+}
 
-void expect_parted(const Adjacency& graph, const std::vector<Half>& sides) {
+void expect_parted(const Adjacency& graph, const std::vector<GraphSide>& sides) {
   for (int v = 0; v < graph.size(); ++v) {
     for (int e = graph.start[v]; e < graph.start[v + 1]; ++e) {
-      EXPECT_FALSE(sides[v] == Half::Left && sides[graph.nodes[e]] == Half::Right) << v << " and " << graph.nodes[e];
+      EXPECT_FALSE(sides[v] == GraphSide::Left && sides[graph.nodes[e]] == GraphSide::Right) << v << " and " << graph.nodes[e];
     }
   }
 }
@@ -63,15 +66,15 @@ TEST(VertexCut, FindsTheNeckBetweenTwoRooms) {
     edges.emplace_back(800 + k, 400 + 20 * (k + 8));
   }
   const Adjacency graph = graph_of(803, edges);
-  std::vector<Half> sides(803, Half::Middle);
+  std::vector<GraphSide> sides(803, GraphSide::Middle);
   for (int y = 0; y < 20; ++y) {
-    sides[20 * y] = Half::Left;
-    sides[400 + 20 * y + 19] = Half::Right;
+    sides[20 * y] = GraphSide::Left;
+    sides[400 + 20 * y + 19] = GraphSide::Right;
   }
   narrow_to_cut(graph, sides);
   expect_parted(graph, sides);
-  EXPECT_EQ(count_of(sides, Half::Middle), 3);
-  EXPECT_EQ(count_of(sides, Half::Left) + count_of(sides, Half::Right), 800);
+  EXPECT_EQ(count_of(sides, GraphSide::Middle), 3);
+  EXPECT_EQ(count_of(sides, GraphSide::Left) + count_of(sides, GraphSide::Right), 800);
 }
 
 TEST(VertexCut, OfRandomGraphsIsAsSmallAsNodesThatPartThemCanBe) {
@@ -101,22 +104,22 @@ TEST(VertexCut, OfRandomGraphsIsAsSmallAsNodesThatPartThemCanBe) {
     for (unsigned removed = 0; removed < 1U << count; removed += 4) {
       if (parted_by(removed)) least = std::min(least, __builtin_popcount(removed));
     }
-    std::vector<Half> sides(count, Half::Middle);
-    sides[0] = Half::Left;
-    sides[1] = Half::Right;
+    std::vector<GraphSide> sides(count, GraphSide::Middle);
+    sides[0] = GraphSide::Left;
+    sides[1] = GraphSide::Right;
     narrow_to_cut(graph, sides);
     expect_parted(graph, sides);
-    EXPECT_EQ(count_of(sides, Half::Middle), least) << "trial " << trial;
+    EXPECT_EQ(count_of(sides, GraphSide::Middle), least) << "trial " << trial;
   }
 }
 
 TEST(Separator, OfALongRectangleIsAboutItsWidth) {
   const Adjacency graph = graph_of(300 * 40, rectangle_edges(300, 40));
-  const std::vector<Half> sides = separate(graph);
+  const std::vector<GraphSide> sides = separate(graph);
   expect_parted(graph, sides);
-  EXPECT_LE(count_of(sides, Half::Middle), 44);
-  EXPECT_GE(count_of(sides, Half::Left), 0.25 * graph.size());
-  EXPECT_GE(count_of(sides, Half::Right), 0.25 * graph.size());
+  EXPECT_LE(count_of(sides, GraphSide::Middle), 44);
+  EXPECT_GE(count_of(sides, GraphSide::Left), 0.25 * graph.size());
+  EXPECT_GE(count_of(sides, GraphSide::Right), 0.25 * graph.size());
 }
 
 TEST(Separator, OfWhatHasNoTwoEndsIsValid) {

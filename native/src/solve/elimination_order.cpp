@@ -38,25 +38,6 @@ std::vector<int> minimum_degree_order(const Adjacency& graph) {
   return {permutation.indices().data(), permutation.indices().data() + n};
 }
 
-/// Some nodes of a graph, ascending, and the edges between them.
-struct Part {
-  std::vector<int> nodes;
-  Adjacency graph;
-};
-
-Part part_of(const Adjacency& graph, std::vector<int> nodes) {
-  Part out{.nodes = std::move(nodes), .graph = {.start = {0}, .nodes = {}}};
-  std::vector<int> number(graph.size(), -1);
-  for (std::size_t k = 0; k < out.nodes.size(); ++k) number[out.nodes[k]] = static_cast<int>(k);
-  for (const int v : out.nodes) {
-    for (int e = graph.start[v]; e < graph.start[v + 1]; ++e) {
-      if (const int k = number[graph.nodes[e]]; k >= 0) out.graph.nodes.push_back(k);
-    }
-    out.graph.start.push_back(static_cast<int>(out.graph.nodes.size()));
-  }
-  return out;
-}
-
 /// The nodes that hang together, ascending.
 std::vector<std::vector<int>> components(const Adjacency& graph) {
   std::vector<int> component(graph.size(), -1), reached;
@@ -87,7 +68,7 @@ std::vector<int> by_components(const Adjacency& graph, OrderOf order_of) {
   std::vector<int> order;
   order.reserve(graph.size());
   for (std::vector<int>& nodes : parts) {
-    const Part part = part_of(graph, std::move(nodes));
+    const Subgraph part = subgraph(graph, std::move(nodes));
     for (const int k : order_of(part.graph)) order.push_back(part.nodes[k]);
   }
   return order;
@@ -96,17 +77,17 @@ std::vector<int> by_components(const Adjacency& graph, OrderOf order_of) {
 std::vector<int> dissect(const Adjacency& connected) {
   if (connected.size() <= kUndivided) return minimum_degree_order(connected);
   std::array<std::vector<int>, 3> nodes;
-  const std::vector<Half> sides = separate(connected);
+  const std::vector<GraphSide> sides = separate(connected);
   for (int v = 0; v < connected.size(); ++v) nodes[static_cast<int>(sides[v])].push_back(v);
   std::vector<int> order;
   order.reserve(connected.size());
-  for (const Half side : {Half::Left, Half::Right}) {
+  for (const GraphSide side : {GraphSide::Left, GraphSide::Right}) {
     auto& own = nodes[static_cast<int>(side)];
     if (own.size() + 1 >= static_cast<std::size_t>(connected.size())) return minimum_degree_order(connected);  // nothing parts it
-    const Part part = part_of(connected, std::move(own));
+    const Subgraph part = subgraph(connected, std::move(own));
     for (const int k : by_components(part.graph, dissect)) order.push_back(part.nodes[k]);
   }
-  order.insert(order.end(), nodes[static_cast<int>(Half::Middle)].begin(), nodes[static_cast<int>(Half::Middle)].end());
+  order.insert(order.end(), nodes[static_cast<int>(GraphSide::Middle)].begin(), nodes[static_cast<int>(GraphSide::Middle)].end());
   return order;
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solve/supernodes.h"
+#include "solve/adjacency.h"
 
 namespace atlas_refine {
 

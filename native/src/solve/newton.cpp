@@ -97,10 +97,12 @@ void add_dirichlet(const Objective& objective, const std::vector<Triangle>& tria
     const int odd = begin / kBlock % 2, size = std::clamp(count - begin, 0, kBlock);
     parallel_ranges(1 + kPieces, size > kBlock / 2 ? threads : 1, 1, [&](int from, int to) {
       for (int k = from; k < to; ++k) {
-        if (k == 0 && begin > 0) add(begin - kBlock, std::min(begin, count), buffers[1 - odd].data());
-        if (k == 0) continue;
-        const int first = size * (k - 1) / kPieces, last = size * k / kPieces;
-        derive(begin + first, begin + last, buffers[odd].data() + first);
+        if (k > 0) {
+          const int first = size * (k - 1) / kPieces, last = size * k / kPieces;
+          derive(begin + first, begin + last, buffers[odd].data() + first);
+        } else if (begin > 0) {
+          add(begin - kBlock, std::min(begin, count), buffers[1 - odd].data());
+        }
       }
     });
   }

@@ -34,7 +34,7 @@ Distances distances_from(const Adjacency& graph, int node) {
 }
 
 /// What lies in the middle between two ends far from each other: by how much nearer nodes are to the one.
-std::vector<Half> middle_of(const Adjacency& graph) {
+std::vector<GraphSide> middle_of(const Adjacency& graph) {
   const int one = distances_from(graph, 0).nodes.back();
   const Distances from_one = distances_from(graph, one);
   const Distances from_other = distances_from(graph, from_one.nodes.back());
@@ -42,10 +42,10 @@ std::vector<Half> middle_of(const Adjacency& graph) {
   const auto nearer = [&](int v) { return from_one.to[v] - from_other.to[v]; };
   std::stable_sort(order.begin(), order.end(), [&](int v, int w) { return nearer(v) < nearer(w); });
   const int left = static_cast<int>(0.5 * (1 - kMiddle) * graph.size());
-  std::vector<Half> sides(graph.size(), Half::Middle);
+  std::vector<GraphSide> sides(graph.size(), GraphSide::Middle);
   for (int k = 0; k < left; ++k) {
-    sides[order[k]] = Half::Left;
-    sides[order[graph.size() - 1 - k]] = Half::Right;
+    sides[order[k]] = GraphSide::Left;
+    sides[order[graph.size() - 1 - k]] = GraphSide::Right;
   }
   return sides;
 }
@@ -100,24 +100,24 @@ Adjacency graph_of_stars(const Adjacency& graph, const std::vector<int>& star) {
   return out;
 }
 
-void widen_middle(const Adjacency& graph, std::vector<Half>& sides) {
-  const std::vector<Half> before = sides;
+void widen_middle(const Adjacency& graph, std::vector<GraphSide>& sides) {
+  const std::vector<GraphSide> before = sides;
   for (int v = 0; v < graph.size(); ++v) {
-    if (before[v] != Half::Middle) continue;
-    for (int e = graph.start[v]; e < graph.start[v + 1]; ++e) sides[graph.nodes[e]] = Half::Middle;
+    if (before[v] != GraphSide::Middle) continue;
+    for (int e = graph.start[v]; e < graph.start[v + 1]; ++e) sides[graph.nodes[e]] = GraphSide::Middle;
   }
 }
 
 /// What lies around where the graph of stars is parted.
-std::vector<Half> middle_by_stars(const Adjacency& graph, const std::vector<int>& star, const Adjacency& stars) {
-  std::vector<Half> coarse = separate(stars), out;
+std::vector<GraphSide> middle_by_stars(const Adjacency& graph, const std::vector<int>& star, const Adjacency& stars) {
+  std::vector<GraphSide> coarse = separate(stars), out;
   for (int ring = 0; ring < kRings; ++ring) widen_middle(stars, coarse);
   out.reserve(graph.size());
   for (const int s : star) out.push_back(coarse[s]);
   return out;
 }
 
-std::vector<Half> wide_middle(const Adjacency& graph) {
+std::vector<GraphSide> wide_middle(const Adjacency& graph) {
   if (graph.size() <= kFew) return middle_of(graph);
   const std::vector<int> star = stars_of(graph);
   return middle_by_stars(graph, star, graph_of_stars(graph, star));
@@ -125,14 +125,14 @@ std::vector<Half> wide_middle(const Adjacency& graph) {
 
 }  // namespace
 
-std::vector<Half> separate(const Adjacency& graph) {
-  std::vector<Half> sides = wide_middle(graph);
+std::vector<GraphSide> separate(const Adjacency& graph) {
+  std::vector<GraphSide> sides = wide_middle(graph);
   narrow_to_cut(graph, sides);
   // Where the middle is thin, edges lead past it.
   for (int v = 0; v < graph.size(); ++v) {
-    if (sides[v] != Half::Left) continue;
+    if (sides[v] != GraphSide::Left) continue;
     const auto first = graph.nodes.begin() + graph.start[v], last = graph.nodes.begin() + graph.start[v + 1];
-    if (std::any_of(first, last, [&](int w) { return sides[w] == Half::Right; })) sides[v] = Half::Middle;
+    if (std::any_of(first, last, [&](int w) { return sides[w] == GraphSide::Right; })) sides[v] = GraphSide::Middle;
   }
   return sides;
 }

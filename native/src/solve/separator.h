@@ -7,6 +7,6 @@ namespace atlas_refine {
 
 /// The side of each node of a connected graph. No edge joins left and right, each of which has at least about a quarter of the
 /// nodes.
-std::vector<Half> separate(const Adjacency& graph);
+std::vector<GraphSide> separate(const Adjacency& graph);
 
 }  // namespace atlas_refine

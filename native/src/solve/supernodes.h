@@ -3,15 +3,9 @@
 
 #include <vector>
 
+#include "solve/adjacency.h"
+
 namespace atlas_refine {
-
-/// A symmetric pattern as adjacency: neighbours of column i are nodes[start[i]] to nodes[start[i + 1] - 1], without i itself.
-struct Adjacency {
-  std::vector<int> start;
-  std::vector<int> nodes;
-
-  int size() const { return static_cast<int>(start.size()) - 1; }
-};
 
 /// Consecutive columns that are factored as one dense front, children before their parents. Positions count columns in the order
 /// in which they are eliminated after all: one with the same fill as theirs.

@@ -20,7 +20,7 @@ bool is_in(int place) { return place % 2 == 0; }
 /// The nodes in the middle, and paths through them from what lies left to what lies right of it.
 class Middle {
  public:
-  Middle(const Adjacency& graph, const std::vector<Half>& sides);
+  Middle(const Adjacency& graph, const std::vector<GraphSide>& sides);
 
   /// As many paths as there are.
   void fill_with_paths() {
@@ -28,46 +28,48 @@ class Middle {
   }
   /// After that: of the two smallest cuts, next to what the left still leads to and next to what still leads to the right, the
   /// one that leaves sides of about one size.
-  void assign_sides(std::vector<Half>& sides) const;
+  void assign_sides(std::vector<GraphSide>& sides) const;
 
  private:
+  int count() const { return part_.graph.size(); }
   bool is_used(int node) const { return next_[node] != kNone; }
-  int ways(int place) const { return is_in(place) ? 1 : 2 + graph_.start[node_of(place) + 1] - graph_.start[node_of(place)]; }
+  int ways(int place) const {
+    return is_in(place) ? 1 : 2 + part_.graph.start[node_of(place) + 1] - part_.graph.start[node_of(place)];
+  }
   int step(int place, int way) const;
   bool find_levels();
   void extend_paths();
-  bool extend_path(std::vector<int> places);
+  void extend_path(std::vector<int> places);
   void take(const std::vector<int>& places);
   std::vector<char> leading_right() const;
 
-  std::vector<int> names_;  // of the nodes, in the whole graph
-  Adjacency graph_;         // of the middle alone
+  const Subgraph part_;
   std::vector<char> at_left_, at_right_;
   std::vector<int> previous_, next_;  // on the path through each node; kOutside at its ends
   std::vector<int> level_;            // of each place: steps from the left
   std::vector<int> tried_;            // of each place: ways
 };
 
-Middle::Middle(const Adjacency& graph, const std::vector<Half>& sides) {
-  std::vector<int> number(graph.size(), kNone);
-  for (int v = 0; v < graph.size(); ++v) {
-    if (sides[v] != Half::Middle) continue;
-    number[v] = static_cast<int>(names_.size());
-    names_.push_back(v);
+std::vector<int> nodes_on(const std::vector<GraphSide>& sides, GraphSide side) {
+  std::vector<int> nodes;
+  for (std::size_t v = 0; v < sides.size(); ++v) {
+    if (sides[v] == side) nodes.push_back(static_cast<int>(v));
   }
-  at_left_.assign(names_.size(), 0);
-  at_right_.assign(names_.size(), 0);
-  previous_.assign(names_.size(), kNone);
-  next_.assign(names_.size(), kNone);
-  graph_.start = {0};
-  for (std::size_t k = 0; k < names_.size(); ++k) {
-    for (int e = graph.start[names_[k]]; e < graph.start[names_[k] + 1]; ++e) {
-      const int other = graph.nodes[e];
-      if (sides[other] == Half::Left) at_left_[k] = 1;
-      if (sides[other] == Half::Right) at_right_[k] = 1;
-      if (sides[other] == Half::Middle) graph_.nodes.push_back(number[other]);
+  return nodes;
+}
+
+Middle::Middle(const Adjacency& graph, const std::vector<GraphSide>& sides)
+    : part_(subgraph(graph, nodes_on(sides, GraphSide::Middle))),
+      at_left_(part_.nodes.size(), 0),
+      at_right_(part_.nodes.size(), 0),
+      previous_(part_.nodes.size(), kNone),
+      next_(part_.nodes.size(), kNone) {
+  for (std::size_t k = 0; k < part_.nodes.size(); ++k) {
+    for (int e = graph.start[part_.nodes[k]]; e < graph.start[part_.nodes[k] + 1]; ++e) {
+      const GraphSide side = sides[graph.nodes[e]];
+      if (side == GraphSide::Left) at_left_[k] = 1;
+      if (side == GraphSide::Right) at_right_[k] = 1;
     }
-    graph_.start.push_back(static_cast<int>(graph_.nodes.size()));
   }
 }
 
@@ -81,20 +83,20 @@ int Middle::step(int place, int way) const {
   }
   if (way == 0) return at_right_[node] ? kOutside : kNone;
   if (way == 1) return is_used(node) ? in(node) : kNone;
-  const int other = graph_.nodes[graph_.start[node] + way - 2];
+  const int other = part_.graph.nodes[part_.graph.start[node] + way - 2];
   return other == next_[node] ? kNone : in(other);
 }
 
 /// False where no way is left to the right; then every place that can still be reached has a level.
 bool Middle::find_levels() {
-  level_.assign(2 * names_.size(), kNone);
+  level_.assign(2 * part_.nodes.size(), kNone);
   std::vector<int> reached;
   const auto reach = [&](int place, int level) {
     if (level_[place] != kNone) return;
     level_[place] = level;
     reached.push_back(place);
   };
-  for (int node = 0; node < graph_.size(); ++node) {
+  for (int node = 0; node < count(); ++node) {
     if (at_left_[node]) reach(in(node), 0);
   }
   bool found = false;
@@ -110,14 +112,14 @@ bool Middle::find_levels() {
 }
 
 void Middle::extend_paths() {
-  tried_.assign(2 * names_.size(), 0);
-  for (int node = 0; node < graph_.size(); ++node) {
+  tried_.assign(2 * part_.nodes.size(), 0);
+  for (int node = 0; node < count(); ++node) {
     if (at_left_[node]) extend_path({in(node)});
   }
 }
 
-/// One more path, from level to level.
-bool Middle::extend_path(std::vector<int> places) {
+/// One more path, from level to level, where there is one.
+void Middle::extend_path(std::vector<int> places) {
   while (!places.empty()) {
     const int place = places.back(), count = ways(place);
     int to = kNone;
@@ -130,12 +132,11 @@ bool Middle::extend_path(std::vector<int> places) {
       if (!places.empty()) ++tried_[places.back()];
     } else if (to == kOutside) {
       take(places);
-      return true;
+      return;
     } else {
       places.push_back(to);
     }
   }
-  return false;
 }
 
 void Middle::take(const std::vector<int>& places) {
@@ -157,13 +158,13 @@ void Middle::take(const std::vector<int>& places) {
 
 /// Of each place whether the right can still be reached from it.
 std::vector<char> Middle::leading_right() const {
-  std::vector<char> leads(2 * names_.size(), 0);
+  std::vector<char> leads(2 * part_.nodes.size(), 0);
   std::vector<int> reached;
   const auto reach = [&](int place) {
     if (!leads[place]) reached.push_back(place);
     leads[place] = 1;
   };
-  for (int node = 0; node < graph_.size(); ++node) {
+  for (int node = 0; node < count(); ++node) {
     if (at_right_[node]) reach(out(node));
   }
   for (std::size_t k = 0; k < reached.size(); ++k) {
@@ -174,33 +175,33 @@ std::vector<char> Middle::leading_right() const {
       continue;
     }
     if (is_used(node)) reach(out(node));
-    for (int e = graph_.start[node]; e < graph_.start[node + 1]; ++e) {
-      if (next_[graph_.nodes[e]] != node) reach(out(graph_.nodes[e]));
+    for (int e = part_.graph.start[node]; e < part_.graph.start[node + 1]; ++e) {
+      if (next_[part_.graph.nodes[e]] != node) reach(out(part_.graph.nodes[e]));
     }
   }
   return leads;
 }
 
-void Middle::assign_sides(std::vector<Half>& sides) const {
+void Middle::assign_sides(std::vector<GraphSide>& sides) const {
   const std::vector<char> leads = leading_right();
   const auto reached = [&](int place) { return level_[place] != kNone; };
   int left = 0, right = 0;
-  for (int node = 0; node < graph_.size(); ++node) {
+  for (int node = 0; node < count(); ++node) {
     left += reached(out(node));
     right += leads[in(node)];
   }
-  for (int node = 0; node < graph_.size(); ++node) {
-    Half& side = sides[names_[node]];
+  for (int node = 0; node < count(); ++node) {
+    GraphSide& side = sides[part_.nodes[node]];
     if (left >= right)
-      side = reached(out(node)) ? Half::Left : reached(in(node)) ? Half::Middle : Half::Right;
+      side = reached(out(node)) ? GraphSide::Left : reached(in(node)) ? GraphSide::Middle : GraphSide::Right;
     else
-      side = leads[in(node)] ? Half::Right : leads[out(node)] ? Half::Middle : Half::Left;
+      side = leads[in(node)] ? GraphSide::Right : leads[out(node)] ? GraphSide::Middle : GraphSide::Left;
   }
 }
 
 }  // namespace
 
-void narrow_to_cut(const Adjacency& graph, std::vector<Half>& sides) {
+void narrow_to_cut(const Adjacency& graph, std::vector<GraphSide>& sides) {
   Middle middle(graph, sides);
   middle.fill_with_paths();
   middle.assign_sides(sides);
