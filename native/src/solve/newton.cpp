@@ -2,7 +2,6 @@
 #include "solve/newton.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -80,31 +79,18 @@ std::vector<double> triangle_energies(const Objective& objective, const std::vec
 void add_dirichlet(const Objective& objective, const std::vector<Triangle>& triangles, const TriangleSlots& slots,
                    const std::vector<Vec2>& x, int threads, BlockSystem& system) {
   const PhaseScope scope(Phase::Assemble);
-  constexpr int kBlock = 4096, kPieces = 8;  // the first bounds the buffers
+  constexpr int kBlock = 4096;  // bounds the buffer
   const int count = static_cast<int>(triangles.size());
-  std::array<std::vector<TriangleDerivatives>, 2> buffers;  // one is added while the other is filled
-  for (auto& buffer : buffers) buffer.resize(std::min(kBlock, count));
-  const auto derive = [&](int begin, int end, TriangleDerivatives* out) {
-    for (int t = begin; t < end; ++t) {
-      const Triangle& v = triangles[t];
-      *out++ = symmetric_dirichlet_derivatives(objective.inverse_edges[t], x[v[0]], x[v[1]], x[v[2]]);
-    }
-  };
-  const auto add = [&](int begin, int end, const TriangleDerivatives* from) {
-    for (int t = begin; t < end; ++t) add_triangle(triangles[t], slots[t], objective.weight[t], *from++, system);
-  };
-  for (int begin = 0; begin < count + kBlock; begin += kBlock) {
-    const int odd = begin / kBlock % 2, size = std::clamp(count - begin, 0, kBlock);
-    parallel_ranges(1 + kPieces, size > kBlock / 2 ? threads : 1, 1, [&](int from, int to) {
+  std::vector<TriangleDerivatives> buffer(std::min(kBlock, count));
+  for (int begin = 0; begin < count; begin += kBlock) {
+    const int end = std::min(count, begin + kBlock);
+    parallel_ranges(end - begin, threads, kBlock / 4, [&](int from, int to) {
       for (int k = from; k < to; ++k) {
-        if (k > 0) {
-          const int first = size * (k - 1) / kPieces, last = size * k / kPieces;
-          derive(begin + first, begin + last, buffers[odd].data() + first);
-        } else if (begin > 0) {
-          add(begin - kBlock, std::min(begin, count), buffers[1 - odd].data());
-        }
+        const Triangle& v = triangles[begin + k];
+        buffer[k] = symmetric_dirichlet_derivatives(objective.inverse_edges[begin + k], x[v[0]], x[v[1]], x[v[2]]);
       }
     });
+    for (int t = begin; t < end; ++t) add_triangle(triangles[t], slots[t], objective.weight[t], buffer[t - begin], system);
   }
 }
 
