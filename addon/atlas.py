@@ -84,11 +84,13 @@ class Atlas:
         name = self.title if len(self.parts) == 1 else ""
         self.job = engine.start(*self.request.joined.arrays(), name=name, threads=threads, **self.request.arguments, **keywords)
 
-    def write(self, result):
-        """In steps, between which nothing may change the meshes. Raises one of tasks.FAILURES with all of them as they were."""
+    def write(self, result, is_alone):
+        """In steps, between which nothing may change the meshes. Raises one of tasks.FAILURES with all of them as they were.
+
+        `is_alone`: nothing else could run since they were read, so that they are not read again."""
         objs = []
         for part in self.parts:
-            objs.append((yield from _still_there(part)))
+            objs.append(bpy.data.objects[part.name] if is_alone else (yield from _still_there(part)))
         if result.intervention == "unchanged":
             return (yield lambda: self._done(result, self.prints()))
         uvs = yield lambda: stored_uvs(result.corner_uvs)

@@ -202,7 +202,8 @@ def _source(obj, uv_map, depsgraph, wanted, number):
     """None for a mesh that cannot be read, of which the operators say why."""
     try:
         with bridge.mesh_to_read(obj) as mesh:
-            atlas, triangles = bridge.atlas_of(mesh, uv_map), bridge.triangles_of(mesh)
+            atlas = bridge.atlas_of(mesh, uv_map)
+            triangles = bridge.triangles_of(mesh, atlas)
             boxes = _boxes(obj, mesh, wanted, number)
     except bridge.MeshError:
         return None
@@ -210,8 +211,8 @@ def _source(obj, uv_map, depsgraph, wanted, number):
     shown, evaluated = bridge.read_shown_positions(obj, depsgraph), None
     mesh = bridge.evaluated_mesh(obj, uv_map, depsgraph)
     if mesh is not None:
-        own = _boxes(obj, mesh, wanted, number)
-        evaluated = Source(bridge.atlas_of(mesh, uv_map), bridge.triangles_of(mesh), scale, seams[:0], own)
+        own, shown_atlas = _boxes(obj, mesh, wanted, number), bridge.atlas_of(mesh, uv_map)
+        evaluated = Source(shown_atlas, bridge.triangles_of(mesh, shown_atlas), scale, seams[:0], own)
     return Source(atlas, triangles, scale, seams, boxes, shown, evaluated)
 
 

@@ -42,6 +42,7 @@ class Run:
         self.atlases = []
         self.cancelled = False
         self.finishing = False
+        self._beside_window = beside_window
         # One core is left to the window.
         automatic = max(1, (os.cpu_count() or 1) - 1) if beside_window else 0
         self._threads = options.threads or preferences.get().threads or automatic
@@ -147,7 +148,7 @@ class Run:
         out = []
         for atlas in self.begun:
             try:
-                out.append((yield from atlas.write(atlas.job.result())))
+                out.append((yield from atlas.write(atlas.job.result(), is_alone=not self._beside_window)))
             except FAILURES as error:
                 self.problems.append((atlas.title, why(error)))
                 self.errors.append(error)

@@ -73,7 +73,7 @@ def read_in_steps(obj, uv_map):
 
 def write_uvs(obj, uv_map, uvs):
     """Stores (C, 2) float32 UVs in the named map and nothing else. Raises MeshError where what is then stored is not what was
-    given: the old ones are to be written again."""
+    given (object mode): the old ones are to be written again."""
     at_once(write_in_steps(obj, uv_map, uvs))
 
 
@@ -83,22 +83,20 @@ def write_in_steps(obj, uv_map, uvs):
     if obj.mode == "EDIT":
         yield from write_edit_mesh(bmesh.from_edit_mesh(mesh), uv_map, uvs)
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
-    else:
-        versions.write_uvs(mesh.uv_layers[uv_map], uvs)
-        mesh.update()
+        return  # corner by corner, each by its own name: there is nothing that a copy of the mesh could tell
+    versions.write_uvs(mesh.uv_layers[uv_map], uvs)
+    mesh.update()
     yield
-    with mesh_to_read(obj) as stored:
-        yield
-        if versions.read_uvs(stored.uv_layers[uv_map], len(stored.loops)).tobytes() != uvs.tobytes():
-            raise MeshError("Blender did not store the new UVs as they were given")
+    if versions.read_uvs(mesh.uv_layers[uv_map], len(mesh.loops)).tobytes() != uvs.tobytes():
+        raise MeshError("Blender did not store the new UVs as they were given")
 
 
-def triangles_of(mesh):
-    """How Blender divides faces of more than three corners: (T, 3) int32 corners."""
+def triangles_of(mesh, atlas):
+    """How Blender divides faces of more than three corners: (T, 3) int32 corners; `atlas`: what atlas_of() gave for the mesh."""
     versions.calc_loop_triangles(mesh)
     loops = integers(mesh.loop_triangles, "loops", 3).reshape(-1, 3)
-    faces = integers(mesh.loop_triangles, "polygon_index")
-    return loops[integers(mesh.polygons, "loop_total")[faces] > 3]
+    sizes = np.diff(atlas.face_offsets)
+    return loops[np.repeat(sizes > 3, np.maximum(sizes - 2, 0))]  # they come in the order of the faces
 
 
 def read_shown_positions(obj, depsgraph):

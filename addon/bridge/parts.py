@@ -49,7 +49,7 @@ def read_part(context, obj, options, material_numbers):
         yield
         atlas = bridge.atlas_of(mesh, uv_map)
         yield
-        triangles = bridge.triangles_of(mesh)
+        triangles = bridge.triangles_of(mesh, atlas)
         yield
         selected = selection.selected_faces(mesh, uv_map, told_by) if obj.mode == "EDIT" else None
         painted = named.Painted(mesh, obj.vertex_groups, atlas)

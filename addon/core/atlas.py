@@ -34,6 +34,6 @@ def stored_uvs(corner_uvs):
 
     What was no number before still is none."""
     stored = np.ascontiguousarray(corner_uvs, dtype=np.float32)
-    if not np.array_equal(stored.astype(np.float64), corner_uvs, equal_nan=True):
+    if np.any((stored != corner_uvs) & ~(np.isnan(stored) & np.isnan(corner_uvs))):
         raise ValueError("the refined UVs do not fit single precision")
     return stored

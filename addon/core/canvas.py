@@ -7,6 +7,7 @@ import numpy as np
 
 from .joined import Joined
 from .options import Texture
+from .who import group_faces
 from .words import counted
 
 
@@ -53,8 +54,8 @@ def beside_active_tiles(places, canvases):
 
 def missing_tiles(places, canvases):
     """Notes on faces in tiles that their tiled image does not have."""
-    codes, counts = np.unique(places.codes, axis=0, return_counts=True)
-    for (canvas, tile), count in zip(codes.tolist(), counts.tolist(), strict=True):
+    groups, first = group_faces(places.codes)
+    for (canvas, tile), count in zip(places.codes[first].tolist(), np.bincount(groups).tolist(), strict=True):
         texture, name = canvases[canvas].texture, places.names[tile]
         if texture is not None and texture.is_tiled and name and name not in map(str, texture.tiles):
             tile = name if name.startswith("tile") else f"tile {name}"

@@ -86,6 +86,9 @@ class Joined:
     def triangles(self):
         out = []
         for (part, _, corners), first in self._with(self.first_corners):
+            if part.taken.all():
+                out.append(part.triangles + first)
+                continue
             number = np.full(len(part.atlas.corner_vertices), -1)
             number[corners] = first + np.arange(len(corners))
             triangles = number[part.triangles].reshape(-1, 3)

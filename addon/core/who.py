@@ -24,9 +24,10 @@ def stay(charts, hidden, selected, pinned):
 
 
 def group_faces(codes):
-    """Numbers from 0 on of the rows of (faces, n) codes, and the first face of each."""
-    _, first, groups = np.unique(codes, axis=0, return_index=True, return_inverse=True)
-    return groups.reshape(-1).astype(np.int32), first
+    """Numbers from 0 on of the rows of (faces, 2) codes, none negative, in their order, and the first face of each."""
+    rows = codes[:, 0].astype(np.int64) * (codes[:, 1].max() + 1) + codes[:, 1]  # unique() of rows takes ten times as long
+    _, first, groups = np.unique(rows, return_index=True, return_inverse=True)
+    return groups.astype(np.int32), first
 
 
 def groups_without_work(groups, locked):
