@@ -125,8 +125,14 @@ double smallest_gap(const Scene& scene, const BoxTree& tree) {
 /// growth of width and height (or of width alone).
 class Program {
  public:
-  Program(const Scene& scene, const CompactionOptions& options, double gap, double step, bool turning)
-      : scene_(scene), options_(options), gap_(gap), step_(step), turning_(turning), n_(static_cast<int>(scene.centres.size())) {}
+  Program(const Scene& scene, const BoxTree& tree, const CompactionOptions& options, double gap, double step, bool turning)
+      : scene_(scene),
+        tree_(tree),
+        options_(options),
+        gap_(gap),
+        step_(step),
+        turning_(turning),
+        n_(static_cast<int>(scene.centres.size())) {}
 
   /// The motions, empty where the program cannot be solved.
   Eigen::VectorXd solve() {
@@ -147,6 +153,7 @@ class Program {
   /// Adds the terms of direction . (motion of a chart's point).
   void add_motion(LinearInequality& row, int chart, const Vec2& point, const Vec2& direction) const {
     const Vec2 arm = point - scene_.centres[chart];
+    row.terms.reserve(7);
     row.terms.push_back({3 * chart, direction.x()});
     row.terms.push_back({3 * chart + 1, direction.y()});
     row.terms.push_back({3 * chart + 2, (direction.y() * arm.x() - direction.x() * arm.y()) / scene_.radii[chart]});
@@ -211,12 +218,11 @@ class Program {
   }
 
   void add_contacts() {
-    const BoxTree tree = edge_tree(scene_);
     const double reach = gap_ + 4 * step_;
     std::vector<Contact> near;
     for (const Edge& edge : scene_.edges) {
       near.clear();
-      tree.visit_within({edge.a, edge.a}, reach, edge.chart, [&](int other) {
+      tree_.visit_within({edge.a, edge.a}, reach, edge.chart, [&](int other) {
         const Vec2 foot = nearest_point(edge.a, scene_.edges[other]);
         const double distance = (edge.a - foot).norm();
         if (distance > 0 && distance <= reach) near.push_back({distance, other, foot});
@@ -227,6 +233,7 @@ class Program {
   }
 
   const Scene& scene_;
+  const BoxTree& tree_;
   const CompactionOptions& options_;
   double gap_, step_;
   bool turning_;
@@ -266,6 +273,7 @@ std::vector<Placement> compact(const std::vector<Outline>& outlines, const std::
                                const CompactionOptions& options) {
   constexpr int kIterations = 30;
   Scene scene = make_scene(outlines, placements);
+  BoxTree tree = edge_tree(scene);
   const double diagonal = scene.box.diagonal();
   // Aimed a little above the gap, so that round-off does not fall below it.
   // Charts must not touch even without a gap.
@@ -277,14 +285,15 @@ std::vector<Placement> compact(const std::vector<Outline>& outlines, const std::
     // The last, short steps only shift: there the linear program is exact, and
     // the gap comes out as asked.
     const bool turning = iteration < kIterations - 2 && step > 1e-4 * diagonal;
-    const Eigen::VectorXd motion = Program(scene, options, gap, step, turning).solve();
+    const Eigen::VectorXd motion = Program(scene, tree, options, gap, step, turning).solve();
     if (motion.size() == 0) {
       step /= 4;
       continue;
     }
     std::vector<Placement> trial = moved(state, scene, motion, turning);
     Scene trial_scene = make_scene(outlines, trial);
-    const double reached = smallest_gap(trial_scene, edge_tree(trial_scene));
+    BoxTree trial_tree = edge_tree(trial_scene);
+    const double reached = smallest_gap(trial_scene, trial_tree);
     if (reached < 0.5 * gap) {
       step /= 4;
       continue;
@@ -293,6 +302,7 @@ std::vector<Placement> compact(const std::vector<Outline>& outlines, const std::
     if (trial_cost > cost - 1e-3) step /= 2;
     state = std::move(trial);
     scene = std::move(trial_scene);
+    tree = std::move(trial_tree);
     cost = trial_cost;
     if (reached >= options.gap && cost < best_cost) {
       best_cost = cost;

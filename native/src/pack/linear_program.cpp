@@ -5,30 +5,40 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace atlas_refine {
 namespace {
 
 using Eigen::VectorXd;
 
-/// A: the inequalities given, then z_i >= -reach_i, then -z_i >= -reach_i.
+/// A: the inequalities given, those of the same variables together, then z_i >= -reach_i, then -z_i >= -reach_i.
 class Rows {
  public:
-  Rows(const std::vector<LinearInequality>& given, const VectorXd& reach)
-      : given_(given), m_(static_cast<int>(given.size())), n_(static_cast<int>(reach.size())), bounds_(m_ + 2 * n_) {
-    for (int k = 0; k < m_; ++k) bounds_[k] = given[k].bound;
+  Rows(std::vector<LinearInequality> given, const VectorXd& reach)
+      : m_(static_cast<int>(given.size())), n_(static_cast<int>(reach.size())), bounds_(m_ + 2 * n_) {
+    for (LinearInequality& row : given) {
+      std::sort(row.terms.begin(), row.terms.end(), [](const Term& a, const Term& b) { return a.variable < b.variable; });
+    }
+    std::vector<int> order(given.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return before(given[a], given[b]); });
+    for (const int k : order) add(given[k]);
     bounds_.segment(m_, n_) = bounds_.tail(n_) = -reach;
-    prepare_normal();
   }
 
   const VectorXd& bounds() const { return bounds_; }
 
   VectorXd times(const VectorXd& z) const {
     VectorXd product(m_ + 2 * n_);
-    for (int k = 0; k < m_; ++k) {
-      double sum = 0;
-      for (const auto& term : given_[k].terms) sum += term.coefficient * z[term.variable];
-      product[k] = sum;
+    for (const Block& block : blocks_) {
+      const double* coefficient = &coefficients_[block.coefficients];
+      const int* variable = &variables_[block.variables];
+      for (int k = block.begin; k < block.end; ++k, coefficient += block.width) {
+        double sum = 0;
+        for (int i = 0; i < block.width; ++i) sum += coefficient[i] * z[variable[i]];
+        product[k] = sum;
+      }
     }
     product.segment(m_, n_) = z;
     product.tail(n_) = -z;
@@ -37,56 +47,114 @@ class Rows {
 
   VectorXd transposed_times(const VectorXd& y) const {
     VectorXd product = y.segment(m_, n_) - y.tail(n_);
-    for (int k = 0; k < m_; ++k) {
-      for (const auto& term : given_[k].terms) product[term.variable] += term.coefficient * y[k];
+    VectorXd sums(widest_);
+    for (const Block& block : blocks_) {
+      const double* coefficient = &coefficients_[block.coefficients];
+      sums.setZero();
+      for (int k = block.begin; k < block.end; ++k, coefficient += block.width) {
+        for (int i = 0; i < block.width; ++i) sums[i] += coefficient[i] * y[k];
+      }
+      for (int i = 0; i < block.width; ++i) product[variables_[block.variables + i]] += sums[i];
     }
     return product;
   }
 
-  /// Lower triangle of A' diag(weight) A.
-  const Eigen::SparseMatrix<double>& normal(const VectorXd& weight) {
-    double* values = normal_.valuePtr();
-    std::fill_n(values, normal_.nonZeros(), 0.0);
-    const int* slot = slots_.data();
-    for (int k = 0; k < m_; ++k) {
-      for (const auto& p : given_[k].terms) {
-        const double scaled = weight[k] * p.coefficient;
-        for (const auto& q : given_[k].terms) {
-          if (q.variable <= p.variable) values[*slot++] += scaled * q.coefficient;
-        }
+  /// Rows [begin, end), all of the same variables.
+  struct Block {
+    int begin, end;
+    int width;                    ///< variables
+    std::size_t variables;        ///< the first in variables_, in rising order
+    std::ptrdiff_t coefficients;  ///< the first in coefficients_, row by row
+  };
+
+  int variables() const { return n_; }
+  int given() const { return m_; }
+  int widest() const { return widest_; }
+  const std::vector<Block>& blocks() const { return blocks_; }
+  int variable(const Block& block, int i) const { return variables_[block.variables + i]; }
+
+  /// The sum of each two coefficients of a row times its weight, over the block's rows; width x width.
+  void sum_squares(const Block& block, const VectorXd& weight, double* sums) const {
+    std::fill_n(sums, block.width * block.width, 0.0);
+    const double* row = &coefficients_[block.coefficients];
+    for (int k = block.begin; k < block.end; ++k, row += block.width) {
+      for (int i = 0; i < block.width; ++i) {
+        const double scaled = weight[k] * row[i];
+        for (int j = 0; j < block.width; ++j) sums[i * block.width + j] += scaled * row[j];
       }
     }
-    for (int i = 0; i < n_; ++i) values[*slot++] += weight[m_ + i] + weight[m_ + n_ + i];
-    return normal_;
   }
 
  private:
-  void prepare_normal() {
+  using Term = LinearInequality::Term;
+
+  static bool before(const LinearInequality& a, const LinearInequality& b) {
+    return std::lexicographical_compare(a.terms.begin(), a.terms.end(), b.terms.begin(), b.terms.end(),
+                                        [](const Term& p, const Term& q) { return p.variable < q.variable; });
+  }
+
+  void add(const LinearInequality& row) {
+    const int number = blocks_.empty() ? 0 : blocks_.back().end, width = static_cast<int>(row.terms.size());
+    const auto same = [](int variable, const Term& term) { return variable == term.variable; };
+    if (blocks_.empty() || !std::equal(variables_.begin() + static_cast<std::ptrdiff_t>(blocks_.back().variables),
+                                       variables_.end(), row.terms.begin(), row.terms.end(), same)) {
+      blocks_.push_back({number, number, width, variables_.size(), static_cast<std::ptrdiff_t>(coefficients_.size())});
+      for (const Term& term : row.terms) variables_.push_back(term.variable);
+      widest_ = std::max(widest_, width);
+    }
+    blocks_.back().end = number + 1;
+    for (const Term& term : row.terms) coefficients_.push_back(term.coefficient);
+    bounds_[number] = row.bound;
+  }
+
+  int m_, n_, widest_ = 0;
+  VectorXd bounds_;
+  std::vector<Block> blocks_;
+  std::vector<int> variables_;
+  std::vector<double> coefficients_;
+};
+
+/// A' diag(weight) A, its lower triangle.
+class NormalMatrix {
+ public:
+  explicit NormalMatrix(const Rows& rows)
+      : rows_(rows), matrix_(rows.variables(), rows.variables()), sums_(rows.widest() * rows.widest()) {
     std::vector<Eigen::Triplet<double>> entries;
-    for (const auto& row : given_) {
-      for (const auto& p : row.terms) {
-        for (const auto& q : row.terms) {
-          if (q.variable <= p.variable) entries.emplace_back(p.variable, q.variable, 1);
-        }
+    for (const auto& block : rows.blocks()) {
+      for (int i = 0; i < block.width; ++i) {
+        for (int j = 0; j <= i; ++j) entries.emplace_back(rows.variable(block, i), rows.variable(block, j), 1);
       }
     }
-    for (int i = 0; i < n_; ++i) entries.emplace_back(i, i, 1);
-    normal_.resize(n_, n_);
-    normal_.setFromTriplets(entries.begin(), entries.end());
+    for (int i = 0; i < rows.variables(); ++i) entries.emplace_back(i, i, 1);
+    matrix_.setFromTriplets(entries.begin(), entries.end());
     slots_.reserve(entries.size());
     for (const auto& entry : entries) {
-      const int* begin = normal_.innerIndexPtr() + normal_.outerIndexPtr()[entry.col()];
-      const int* end = normal_.innerIndexPtr() + normal_.outerIndexPtr()[entry.col() + 1];
-      slots_.push_back(static_cast<int>(std::lower_bound(begin, end, entry.row()) - normal_.innerIndexPtr()));
+      const int* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[entry.col()];
+      const int* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[entry.col() + 1];
+      slots_.push_back(static_cast<int>(std::lower_bound(begin, end, entry.row()) - matrix_.innerIndexPtr()));
     }
   }
 
-  const std::vector<LinearInequality>& given_;
-  int m_, n_;
-  VectorXd bounds_;
-  Eigen::SparseMatrix<double> normal_;
-  std::vector<int> slots_;  ///< for each pair of terms, in the order they are
-                            ///< summed, its place in normal_
+  const Eigen::SparseMatrix<double>& weighted_with(const VectorXd& weight) {
+    double* values = matrix_.valuePtr();
+    std::fill_n(values, matrix_.nonZeros(), 0.0);
+    const int* slot = slots_.data();
+    for (const auto& block : rows_.blocks()) {
+      rows_.sum_squares(block, weight, sums_.data());
+      for (int i = 0; i < block.width; ++i) {
+        for (int j = 0; j <= i; ++j) values[*slot++] += sums_[i * block.width + j];
+      }
+    }
+    const int m = rows_.given(), n = rows_.variables();
+    for (int i = 0; i < n; ++i) values[*slot++] += weight[m + i] + weight[m + n + i];
+    return matrix_;
+  }
+
+ private:
+  const Rows& rows_;
+  Eigen::SparseMatrix<double> matrix_;
+  VectorXd sums_;           ///< of one block
+  std::vector<int> slots_;  ///< for each pair of terms of a block, in the order they are summed, its place in the matrix
 };
 
 /// Largest step in (0, 1] that keeps x + step * dx >= 0.
@@ -142,7 +210,8 @@ VectorXd solve_linear_program(const VectorXd& cost, const std::vector<LinearIneq
                               const std::function<void()>& poll) {
   constexpr int kIterations = 60;
   constexpr double kPrecision = 1e-9;
-  Rows rows(inequalities, reach);
+  const Rows rows(inequalities, reach);
+  NormalMatrix normal(rows);
   const double scale = reach.maxCoeff(), price = std::max(cost.lpNorm<Eigen::Infinity>(), 1e-300);
   Iterate at{VectorXd::Zero(cost.size()), (-rows.bounds()).cwiseMax(0.1 * scale), {}};
   at.dual = VectorXd::Constant(at.slack.size(), price);
@@ -154,9 +223,9 @@ VectorXd solve_linear_program(const VectorXd& cost, const std::vector<LinearIneq
         residuals.dual.lpNorm<Eigen::Infinity>() < 1e-7 * price && at.gap() * at.slack.size() < 1e-4 * price * scale) {
       return at.z;
     }
-    const auto& normal = rows.normal(at.dual.cwiseQuotient(at.slack));
-    if (iteration == 0) solver.analyzePattern(normal);
-    solver.factorize(normal);
+    const auto& matrix = normal.weighted_with(at.dual.cwiseQuotient(at.slack));
+    if (iteration == 0) solver.analyzePattern(matrix);
+    solver.factorize(matrix);
     if (solver.info() != Eigen::Success) return {};
     const Iterate step = predictor_corrector_step(rows, solver, at, residuals);
     const double primal = std::min(1.0, 0.99 * step_to_boundary(at.slack, step.slack));

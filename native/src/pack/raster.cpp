@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/inline.h"
+
 namespace atlas_refine {
 namespace {
 
@@ -120,12 +122,55 @@ void cover(Raster& raster, const std::vector<std::vector<Vec2>>& loops, double r
 // Widened by what round-off may lose, so that "touches" is never missed.
 constexpr double kSlack = 1e-7;  // cells
 
+/// The cells that two rasters may share.
+struct Shared {
+  const Raster &a, &b;
+  Cell a_place, b_place;
+  int bottom = 0, top = 0, left = 0, right = 0;
+};
+
 /// std::popcount calls a table look-up where the processor's own instruction may not be assumed; this takes half its time.
-int set_bits(std::uint64_t word) {
+template <bool HasInstruction>
+ATLAS_REFINE_INLINE int set_bits(std::uint64_t word) {
+  if constexpr (HasInstruction) return __builtin_popcountll(word);
   word -= word >> 1 & 0x5555555555555555;
   word = (word & 0x3333333333333333) + (word >> 2 & 0x3333333333333333);
   word = (word + (word >> 4)) & 0x0f0f0f0f0f0f0f0f;
   return static_cast<int>(word * 0x0101010101010101 >> 56);
+}
+
+template <bool HasInstruction>
+ATLAS_REFINE_INLINE int count(const Shared& in) {
+  int count = 0;
+  for (int word = (in.left - in.a_place.x) >> 6; word <= (in.right - 1 - in.a_place.x) >> 6; ++word) {
+    // The word's 64 cells begin at `at` in b; b's guard words make both reads safe.
+    const int at = word * 64 + in.a_place.x - in.b_place.x;
+    const int b_word = at >> 6, shift = at & 63;
+    const std::uint64_t* a_row = in.a.row(in.bottom - in.a_place.y) + word;
+    const std::uint64_t* b_row = in.b.row(in.bottom - in.b_place.y) + b_word;
+    const int a_stride = in.a.stride(), b_stride = in.b.stride();
+    if (shift == 0) {
+      for (int y = in.bottom; y < in.top; ++y, a_row += a_stride, b_row += b_stride)
+        count += set_bits<HasInstruction>(*a_row & *b_row);
+    } else {
+      for (int y = in.bottom; y < in.top; ++y, a_row += a_stride, b_row += b_stride)
+        count += set_bits<HasInstruction>(*a_row & ((b_row[0] >> shift) | (b_row[1] << (64 - shift))));
+    }
+  }
+  return count;
+}
+
+int count_baseline(const Shared& in) { return count<false>(in); }
+#ifdef __x86_64__
+__attribute__((target("popcnt"))) int count_popcnt(const Shared& in) { return count<true>(in); }
+#endif
+
+/// The same count with what this processor has.
+auto fastest_count() {
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("popcnt")) return count_popcnt;
+#endif
+  return count_baseline;
 }
 
 }  // namespace
@@ -172,27 +217,12 @@ Raster rasterise_in(const Window& window, const Outline& outline, double radius)
 }
 
 int shared_cells(const Raster& a, const Cell& a_place, const Raster& b, const Cell& b_place) {
+  static const auto counted = fastest_count();
   if (a.words > b.words) return shared_cells(b, b_place, a, a_place);
-  const int bottom = std::max(a_place.y, b_place.y), top = std::min(a_place.y + a.height, b_place.y + b.height);
-  const int left = std::max(a_place.x, b_place.x), right = std::min(a_place.x + a.width, b_place.x + b.width);
-  if (bottom >= top || left >= right) return 0;
-  int count = 0;
-  for (int word = (left - a_place.x) >> 6; word <= (right - 1 - a_place.x) >> 6; ++word) {
-    // The word's 64 cells begin at `at` in b; b's guard words make both reads
-    // safe.
-    const int at = word * 64 + a_place.x - b_place.x;
-    const int b_word = at >> 6, shift = at & 63;
-    const std::uint64_t* a_row = a.row(bottom - a_place.y) + word;
-    const std::uint64_t* b_row = b.row(bottom - b_place.y) + b_word;
-    if (shift == 0) {
-      for (int y = bottom; y < top; ++y, a_row += a.stride(), b_row += b.stride()) count += set_bits(*a_row & *b_row);
-    } else {
-      for (int y = bottom; y < top; ++y, a_row += a.stride(), b_row += b.stride()) {
-        count += set_bits(*a_row & ((b_row[0] >> shift) | (b_row[1] << (64 - shift))));
-      }
-    }
-  }
-  return count;
+  Shared shared{a, b, a_place, b_place};
+  shared.bottom = std::max(a_place.y, b_place.y), shared.top = std::min(a_place.y + a.height, b_place.y + b.height);
+  shared.left = std::max(a_place.x, b_place.x), shared.right = std::min(a_place.x + a.width, b_place.x + b.width);
+  return shared.bottom < shared.top && shared.left < shared.right ? counted(shared) : 0;
 }
 
 }  // namespace atlas_refine

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <type_traits>
 
-#define ATLAS_REFINE_INLINE inline __attribute__((always_inline))
+#include "support/inline.h"
 
 namespace atlas_refine {
 namespace {
