@@ -1,43 +1,20 @@
-// Flat boundaries, near pairs against brute force, and which pairs face each other through the outside.
+// Flat boundaries, and which pairs face each other through the outside.
 #include "geometry/boundary.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
-#include "charts.h"
-#include "geometry/box_tree.h"
+#include "flat_boundary.h"
 #include "shapes.h"
 #include "support/rng.h"
 
 namespace atlas_refine {
 namespace {
 
-struct Flat {
-  Boundary boundary;
-  std::vector<Vec2> positions;
-};
-
-Flat flat(const Atlas& atlas) {
-  const std::vector<Chart> charts = testing::charts_of(atlas);
-  Flat result;
-  std::vector<int> first;
-  for (const Chart& chart : charts) {
-    first.push_back(static_cast<int>(result.positions.size()));
-    result.positions.insert(result.positions.end(), chart.uvs.begin(), chart.uvs.end());
-  }
-  result.boundary = make_boundary(charts, first);
-  return result;
-}
-
-Box swept(const Vec2& position, const Vec2& displacement) {
-  return {position.cwiseMin(position + displacement), position.cwiseMax(position + displacement)};
-}
-
 TEST(Boundary, LoopsAreClosedAndArcsAreMeasuredOnTheSurface) {
-  const Flat ring = flat(shapes::mesh(shapes::ring(), 0.05, 0));
+  const FlatBoundary ring = flat_boundary(shapes::mesh(shapes::ring(), 0.05, 0));
   const Boundary& b = ring.boundary;
   ASSERT_EQ(b.loop_length.size(), 2u);
   for (int e = 0; e < b.size(); ++e) {
@@ -51,7 +28,7 @@ TEST(Boundary, LoopsAreClosedAndArcsAreMeasuredOnTheSurface) {
 }
 
 TEST(Boundary, ArcBetweenTakesTheShorterWayRound) {
-  const Flat square = flat(shapes::mesh(shapes::rectangle(1, 1), 0.1, 0));
+  const FlatBoundary square = flat_boundary(shapes::mesh(shapes::rectangle(1, 1), 0.1, 0));
   const Boundary& b = square.boundary;
   ASSERT_EQ(b.size(), 40);
   for (int ahead = 0; ahead < 40; ++ahead) {
@@ -59,46 +36,6 @@ TEST(Boundary, ArcBetweenTakesTheShorterWayRound) {
     for (int k = 0; k < ahead; ++k) edge = b.next[edge];
     const double to_start = 0.1 * std::min(ahead, 40 - ahead), to_end = 0.1 * std::min((ahead + 1) % 40, 39 - ahead);
     EXPECT_NEAR(b.arc_between(0, edge), std::min(to_start, to_end), 1e-9) << ahead;
-  }
-}
-
-TEST(NearPairs, AreThoseOfBruteForce) {
-  const Atlas atlases[] = {shapes::mesh(shapes::comb(), 0.08), shapes::disk_in_ring(), shapes::squares(12, 0.02),
-                           shapes::mesh(shapes::random_polygon(5), 0.1)};
-  Rng rng(11);
-  for (const Atlas& atlas : atlases) {
-    const auto [b, positions] = flat(atlas);
-    for (const double radius : {0.0, 0.01, 0.1}) {
-      std::vector<Vec2> moves(positions.size(), Vec2::Zero());
-      for (Vec2& move : moves) {
-        move.x() = rng.uniform(-0.05, 0.05);
-        move.y() = rng.uniform(-0.05, 0.05);
-      }
-      const std::vector<PointEdge> pairs = near_pairs(b, positions, moves, radius);
-      const auto key = [](const PointEdge& p) { return std::tuple(p.point, p.edge); };
-      EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end(), [&](const auto& p, const auto& q) { return key(p) < key(q); }));
-      std::size_t found = 0, near = 0;
-      for (int point = 0; point < b.size(); ++point) {
-        for (int edge = 0; edge < b.size(); ++edge) {
-          const bool listed = found < pairs.size() && key(pairs[found]) == std::tuple(point, edge);
-          if (listed) ++found;
-          const bool neighbours = edge == point || b.next[edge] == point;
-          const bool through_the_chart = b.chart[edge] == b.chart[point] && b.loop[edge] != b.loop[point];
-          const int p = b.vertex[point], from = b.vertex[edge], to = b.vertex[b.next[edge]];
-          const Box first = swept(positions[from], moves[from]), second = swept(positions[to], moves[to]);
-          const Box whole{first.min.cwiseMin(second.min), first.max.cwiseMax(second.max)};
-          const double distance = box_distance(swept(positions[p], moves[p]), whole);
-          const bool must_be = !neighbours && !through_the_chart && distance <= radius;
-          // The search may take a square for the circle of its radius.
-          const bool may_be = !neighbours && !through_the_chart && distance <= std::sqrt(2.0) * radius + 1e-12;
-          EXPECT_TRUE(listed || !must_be) << point << " " << edge;
-          EXPECT_TRUE(!listed || may_be) << point << " " << edge;
-          near += must_be;
-        }
-      }
-      EXPECT_EQ(found, pairs.size());
-      EXPECT_GT(near, 0u);
-    }
   }
 }
 
@@ -119,7 +56,7 @@ TEST(ClosestOnSegment, IsTheNearestOfManySamples) {
 
 // In a U the two inner flanks face each other through the outside, an outer flank and its inner one through the chart.
 TEST(FacesOutside, TellsTheSlotFromTheLimb) {
-  const auto [b, positions] = flat(shapes::mesh(shapes::u_shape(), 0.1));
+  const auto [b, positions] = flat_boundary(shapes::mesh(shapes::u_shape(), 0.1));
   const auto on_line = [&](int v, double x) {
     const Vec2& p = positions[b.vertex[v]];
     return std::abs(p.x() - x) < 1e-9 && p.y() > 0.35 && p.y() < 0.95;

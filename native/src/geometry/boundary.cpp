@@ -1,38 +1,15 @@
-// Flat boundaries and the search for near pairs.
+// Flat boundaries.
 #include "geometry/boundary.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/box_tree.h"
 #include "geometry/plane.h"
 #include "geometry/rest_triangle.h"
 
 namespace atlas_refine {
 namespace {
-
-/// The boxes that the boundary vertices sweep.
-std::vector<Box> swept_points(const Boundary& boundary, const std::vector<Vec2>& positions,
-                              const std::vector<Vec2>& displacements) {
-  std::vector<Box> points;
-  points.reserve(boundary.size());
-  for (int v : boundary.vertex) {
-    const Vec2& from = positions[v];
-    const Vec2 to = displacements.empty() ? from : Vec2(from + displacements[v]);
-    points.push_back({from.cwiseMin(to), from.cwiseMax(to)});
-  }
-  return points;
-}
-
-BoxTree tree_of_edges(const Boundary& boundary, const std::vector<Box>& points) {
-  std::vector<Box> edges;
-  edges.reserve(boundary.size());
-  for (int e = 0; e < boundary.size(); ++e) edges.push_back(united(points[e], points[boundary.next[e]]));
-  return {std::move(edges), boundary.loop};
-}
-
-Box grown(const Box& box, double radius) { return {box.min.array() - radius, box.max.array() + radius}; }
 
 /// True where `direction` points out of the chart at boundary vertex v.
 bool points_outside(const Boundary& boundary, const std::vector<Vec2>& positions, int v, const Vec2& direction) {
@@ -107,34 +84,6 @@ double boundary_on_surface(const std::vector<Chart>& charts) {
     }
   }
   return sum;
-}
-
-std::vector<PointEdge> near_pairs(const Boundary& boundary, const std::vector<Vec2>& positions,
-                                  const std::vector<Vec2>& displacements, double radius) {
-  const std::vector<Box> points = swept_points(boundary, positions, displacements);
-  const BoxTree tree = tree_of_edges(boundary, points);
-  std::vector<PointEdge> pairs;
-  std::vector<BoxTree::Leaf> near;
-  for (const BoxTree::Leaf& leaf : tree.leaves()) {
-    Box reach = points[leaf.begin];
-    for (int i = leaf.begin + 1; i < leaf.end; ++i) reach = united(reach, points[i]);
-    near.clear();
-    tree.visit_leaves(grown(reach, radius), [&](const BoxTree::Leaf& other) {
-      if (other.label == leaf.label || boundary.chart[other.begin] != boundary.chart[leaf.begin]) near.push_back(other);
-    });
-    std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
-    for (int i = leaf.begin; i < leaf.end; ++i) {
-      const Box around = grown(points[i], radius);
-      const int before = boundary.previous[i];
-      for (const BoxTree::Leaf& other : near) {
-        if (!overlap(other.box, around)) continue;
-        for (int e = other.begin; e < other.end; ++e) {
-          if (overlap(around, tree.box(e)) && e != i && e != before) pairs.push_back({i, e});
-        }
-      }
-    }
-  }
-  return pairs;
 }
 
 Closest closest_on_segment(const Vec2& point, const Vec2& start, const Vec2& end) {

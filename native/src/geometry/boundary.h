@@ -1,4 +1,4 @@
-// The boundaries of all charts of an atlas as one flat structure, and the search for pairs that are near each other.
+// The boundaries of all charts of an atlas as one flat structure.
 #pragma once
 
 #include <map>
@@ -41,12 +41,6 @@ struct PointEdge {
   int point;  ///< boundary vertex
   int edge;   ///< boundary edge
 };
-
-/// All pairs whose swept boxes (position and position + displacement) come within `radius`, ordered by point, then edge.
-/// Left out: edges that end at the point, and pairs of different loops of one chart (the chart itself lies between them).
-/// `displacements` may be empty: nothing moves.
-std::vector<PointEdge> near_pairs(const Boundary& boundary, const std::vector<Vec2>& positions,
-                                  const std::vector<Vec2>& displacements, double radius);
 
 /// Where a point and a segment are closest.
 struct Closest {

@@ -139,7 +139,7 @@ ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, con
   const PhaseScope scope(Phase::Contacts);
   const double unit = gap_unit(model, state.box);
   ContactSet found;
-  for (const PointEdge& pair : near_pairs(model.boundary, state.x, step, model.gap.value * unit + model.range)) {
+  for (const PointEdge& pair : model.near.find(model.boundary, state.x, step, model.gap.value * unit + model.range)) {
     if (moves_as_one(model, pair)) continue;
     if (!of_one_piece(model.boundary, pair)) {
       found.push_back({pair, model.gap.value, model.range});

@@ -310,7 +310,7 @@ StepBounds free_step(const ReduceModel& model, const ReduceState& state, const s
   const auto moving = [&](int v) { return Moving{state.x[v], step[v]}; };
   const Boundary& boundary = model.boundary;
   const double whole = limit;
-  for (const PointEdge& pair : near_pairs(boundary, state.x, scaled, 0)) {
+  for (const PointEdge& pair : model.near.find(boundary, state.x, scaled, 0)) {
     if (moves_as_one(model, pair)) continue;
     const double hit = hit_time(moving(boundary.vertex[pair.point]), moving(boundary.vertex[pair.edge]),
                                 moving(boundary.vertex[boundary.next[pair.edge]]), whole);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "geometry/boundary.h"
+#include "geometry/near_pairs.h"
 #include "reduce/reduce.h"
 #include "solve/newton.h"
 
@@ -44,6 +44,7 @@ struct ReduceModel {
   double open_unit = 1;  ///< gap unit where there is no box
   int threads = 1;
   ReduceState start;
+  mutable NearPairs near;  ///< of `boundary`: what the searches of one iteration found serves the next ones
 
   int vertex_count() const { return first_vertex.back(); }
   int node_count() const { return vertex_count() + (has_box ? 1 : 0); }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "geometry/boundary.h"
+#include "geometry/near_pairs.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
 
