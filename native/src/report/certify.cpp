@@ -239,16 +239,16 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
   output.vertex_meshes = std::move(faces.vertex_meshes);
   if (!divided) output.triangles = readers_triangles(input);
   for (const CornerRef& corner : faces.corners) output.corner_uvs.push_back(out.uvs[corner.chart][corner.vertex]);
-  ChartSet set = split_charts(output, Joining::Exact);
-  const Freedoms freedom_after = freedom_of_output(set, faces.corners, freedom);
-  excuse_fixed(set, freedom_after);
-  out.seams = seams_of(set);
-  out.triangulations = count_readings(set.readings);
-  out.mirrored_pieces = static_cast<int>(std::count(set.mirrored.begin(), set.mirrored.end(), true));
-  if (!divided) out.worse_faces = worse_faces(input.set.readings, set.readings);
   double to_input = 0;
   const std::array<std::function<void()>, 2> tests = {
       [&] {
+        ChartSet set = split_charts(output, Joining::Exact);
+        const Freedoms freedom_after = freedom_of_output(set, faces.corners, freedom);
+        excuse_fixed(set, freedom_after);
+        out.seams = seams_of(set);
+        out.triangulations = count_readings(set.readings);
+        out.mirrored_pieces = static_cast<int>(std::count(set.mirrored.begin(), set.mirrored.end(), true));
+        if (!divided) out.worse_faces = worse_faces(input.set.readings, set.readings);
         require_valid(input, output, set, freedom_after, out.stored, cut);
         stretch_to_texture(set.charts, options.box_aspect);
         out.after = measure_split(set, options.box_aspect);
