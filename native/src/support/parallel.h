@@ -14,4 +14,9 @@ int resolve_threads(int requested);
 /// (support/thread_pool.h) or, where it has none, on threads for this call.
 void parallel_ranges(int count, int threads, int grain, const std::function<void(int, int)>& body);
 
+/// Calls prepare(k, slot) for every index below `count` in any order, and after it add(k, slot) in ascending order. No two
+/// indices under way share a slot below `threads`. Neither may throw.
+void parallel_in_order(int count, int threads, const std::function<void(int, int)>& prepare,
+                       const std::function<void(int, int)>& add);
+
 }  // namespace atlas_refine
