@@ -33,6 +33,12 @@ void parallel_ranges(int count, int threads, int grain, const std::function<void
   });
 }
 
+void side_by_side(int threads, const std::vector<std::function<void()>>& tasks) {
+  parallel_ranges(static_cast<int>(tasks.size()), threads, 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) tasks[k]();
+  });
+}
+
 void parallel_in_order(int count, int threads, const std::function<void(int, int)>& prepare,
                        const std::function<void(int, int)>& add) {
   if (threads <= 1) {
