@@ -35,7 +35,7 @@ std::vector<Vec2> uvs_of_kept(const Chart& chart, const Decimation& decimation) 
 }
 
 Chart put_back_into(Chart chart, const Decimation& decimation, const std::vector<Vec2>& uvs) {
-  auto all = put_back(decimation, uvs);
+  auto all = put_back(decimation, uvs, 1);
   EXPECT_TRUE(all);
   chart.uvs = std::move(*all);
   return chart;
@@ -72,6 +72,13 @@ TEST(Decimate, ACurvedChartComesBackLittleDistorted) {
   const Chart back = put_back_into(chart, decimation, uvs_of_kept(chart, decimation));
   testing::expect_certified({back});
   EXPECT_LT(dirichlet_sums(back).best_energy(), 1.05 * dirichlet_sums(chart).best_energy());
+}
+
+TEST(Decimate, ComesBackTheSameOnAnyNumberOfThreads) {
+  const Chart chart = plate(0.3);
+  const Decimation decimation = decimated(chart);
+  const std::vector<Vec2> uvs = uvs_of_kept(chart, decimation);
+  EXPECT_EQ(put_back(decimation, uvs, 1), put_back(decimation, uvs, 4));
 }
 
 TEST(Decimate, WhereverTheCoarseTrianglesArePositiveAllAre) {

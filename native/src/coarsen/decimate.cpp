@@ -6,9 +6,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -18,6 +18,7 @@
 #include "geometry/predicates.h"
 #include "geometry/rest_triangle.h"
 #include "solve/symmetric_dirichlet.h"
+#include "support/parallel.h"
 #include "support/profile.h"
 
 namespace atlas_refine {
@@ -40,6 +41,13 @@ struct Fan {
   std::vector<int> triangles, ring;
   std::vector<double> spokes, rims;  ///< lengths of the sides at the vertex, and of those across
 
+  void clear() {
+    triangles.clear();
+    ring.clear();
+    spokes.clear();
+    rims.clear();
+  }
+
   int size() const { return static_cast<int>(ring.size()); }
   int after(int k) const { return k + 1 < size() ? k + 1 : 0; }
 };
@@ -56,7 +64,7 @@ Mesh mesh_of(const Chart& chart) {
 /// False where the triangles do not close around the vertex, are too many, or meet a neighbour twice.
 bool find_fan(const Mesh& mesh, int v, Fan& fan) {
   const std::vector<int>& around = mesh.around[v];
-  fan = {};
+  fan.clear();
   if (around.size() < 3 || around.size() > kMostNeighbours) return false;
   int t = around.front();
   for (std::size_t step = 0; step < around.size(); ++step) {
@@ -79,15 +87,17 @@ bool find_fan(const Mesh& mesh, int v, Fan& fan) {
   return t == around.front();
 }
 
+using Angles = std::array<double, kMostNeighbours>;
+
 /// Angles at the vertex, of each triangle.
-std::vector<double> angles_of(const Fan& fan) {
-  std::vector<double> out;
+Angles angles_of(const Fan& fan) {
+  Angles out = {};
+  double sum = 0;
   for (int k = 0; k < fan.size(); ++k) {
     const double a = fan.spokes[k], b = fan.spokes[fan.after(k)], c = fan.rims[k];
-    out.push_back(std::acos(std::clamp((a * a + b * b - c * c) / (2 * a * b), -1.0, 1.0)));
+    sum += out[k] = std::acos(std::clamp((a * a + b * b - c * c) / (2 * a * b), -1.0, 1.0));
   }
-  const double sum = std::accumulate(out.begin(), out.end(), 0.0);
-  for (double& angle : out) angle *= 2 * std::numbers::pi / sum;
+  for (int k = 0; k < fan.size(); ++k) out[k] *= 2 * std::numbers::pi / sum;
   return out;
 }
 
@@ -95,7 +105,8 @@ std::vector<double> angles_of(const Fan& fan) {
 std::vector<Vec2> laid_flat(const Fan& fan) {
   std::vector<Vec2> out;
   double direction = 0;
-  const std::vector<double> angles = angles_of(fan);
+  out.reserve(fan.size());
+  const Angles angles = angles_of(fan);
   for (int k = 0; k < fan.size(); ++k) {
     out.push_back(fan.spokes[k] * Vec2(std::cos(direction), std::sin(direction)));
     direction += angles[k];
@@ -171,13 +182,14 @@ bool remove_vertex(Mesh& mesh, int v, Fan& fan, Decimation& out) {
   return true;
 }
 
-/// Removes vertices that are not neighbours, again and again.
+/// Removes vertices that are not neighbours, pass by pass.
 void remove_all(std::vector<int> left, Mesh& mesh, Decimation& out) {
   std::vector<int> blocked(mesh.around.size(), -1);
   Fan fan;
   bool idle = false;
   for (int pass = 0; !idle; ++pass) {
     std::vector<int> rest;
+    out.passes.push_back(static_cast<int>(out.removals.size()));
     for (const int v : left) {
       if (blocked[v] == pass || !remove_vertex(mesh, v, fan, out)) {
         rest.push_back(v);
@@ -221,6 +233,10 @@ struct Star {
   std::vector<Vec2> ring;
   std::vector<RestTriangle> shapes;
 
+  void clear() {
+    ring.clear();
+    shapes.clear();
+  }
   std::size_t after(std::size_t k) const { return k + 1 < ring.size() ? k + 1 : 0; }
   bool positive_from(const Vec2& at) const {
     for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -238,7 +254,7 @@ struct Star {
 
 /// Mean value coordinates of the vertex among its neighbours, laid flat (Floater 2003).
 Vec2 at_mean_value(const Star& star, const Fan& fan) {
-  const std::vector<double> angles = angles_of(fan);
+  const Angles angles = angles_of(fan);
   Vec2 sum = Vec2::Zero();
   double weights = 0;
   for (int k = 0; k < fan.size(); ++k) {
@@ -292,30 +308,56 @@ Vec2 relaxed(const Star& star, Vec2 at) {
   return at;
 }
 
-/// Its neighbours as they were when it was removed.
-Fan fan_of(const Decimation& decimation, const Removal& removal) {
-  Fan out;
-  for (int k = removal.first; k < removal.first + removal.size; ++k) {
-    out.ring.push_back(decimation.ring[k]);
-    out.spokes.push_back(decimation.spokes[k]);
-    out.rims.push_back(decimation.rims[k]);
-  }
-  return out;
-}
+/// Brings vertices back, with memory of its own.
+class Return {
+ public:
+  explicit Return(const Decimation& decimation) : decimation_(decimation) {}
 
-std::optional<Vec2> place_of(const Fan& fan, std::size_t onto, const std::vector<Vec2>& uvs) {
-  Star star;
-  for (int k = 0; k < fan.size(); ++k) {
-    star.ring.push_back(uvs[fan.ring[k]]);
-    star.shapes.push_back(rest_from_sides({fan.spokes[k], fan.rims[k], fan.spokes[fan.after(k)]}));
+  /// Where the vertex belongs among its neighbours.
+  std::optional<Vec2> place_of(const Removal& removal, const std::vector<Vec2>& uvs) {
+    find_star(removal, uvs);
+    const Vec2 at = at_mean_value(star_, fan_);
+    if (star_.positive_from(at)) return relaxed(star_, at);
+    const auto near = near_neighbour(star_, removal.onto);
+    return near ? std::optional(relaxed(star_, *near)) : std::nullopt;
   }
-  Vec2 at = at_mean_value(star, fan);
-  if (!star.positive_from(at)) {
-    const auto near = near_neighbour(star, onto);
-    if (!near) return std::nullopt;
-    at = *near;
+
+ private:
+  /// Its neighbours as they were when it was removed.
+  void find_star(const Removal& removal, const std::vector<Vec2>& uvs) {
+    fan_.clear();
+    star_.clear();
+    for (int k = removal.first; k < removal.first + removal.size; ++k) {
+      fan_.ring.push_back(decimation_.ring[k]);
+      fan_.spokes.push_back(decimation_.spokes[k]);
+      fan_.rims.push_back(decimation_.rims[k]);
+      star_.ring.push_back(uvs[decimation_.ring[k]]);
+    }
+    for (int k = 0; k < fan_.size(); ++k)
+      star_.shapes.push_back(rest_from_sides({fan_.spokes[k], fan_.rims[k], fan_.spokes[fan_.after(k)]}));
   }
-  return relaxed(star, at);
+
+  const Decimation& decimation_;
+  Fan fan_;
+  Star star_;
+};
+
+/// Those of one pass are not neighbours: each comes back by itself. False where one has no place.
+bool put_back_pass(const Decimation& decimation, int begin, int end, int threads, std::vector<Vec2>& uvs) {
+  constexpr int kGrain = 256;
+  std::atomic<bool> placed = true;
+  parallel_ranges(end - begin, threads, kGrain, [&](int from, int to) {
+    Return put(decimation);
+    for (int k = begin + from; k < begin + to; ++k) {
+      const Removal& removal = decimation.removals[k];
+      const auto at = put.place_of(removal, uvs);
+      if (at)
+        uvs[removal.vertex] = *at;
+      else
+        placed = false;
+    }
+  });
+  return placed;
 }
 
 }  // namespace
@@ -337,14 +379,14 @@ std::optional<Decimation> decimate(const Chart& chart, double spacing) {
   return out;
 }
 
-std::optional<std::vector<Vec2>> put_back(const Decimation& decimation, const std::vector<Vec2>& coarse_uvs) {
+std::optional<std::vector<Vec2>> put_back(const Decimation& decimation, const std::vector<Vec2>& coarse_uvs, int threads) {
   const PhaseScope scope(Phase::Coarsen);
   std::vector<Vec2> uvs(decimation.kept.size() + decimation.removals.size());
   for (std::size_t k = 0; k < decimation.kept.size(); ++k) uvs[decimation.kept[k]] = coarse_uvs[k];
-  for (auto removal = decimation.removals.rbegin(); removal != decimation.removals.rend(); ++removal) {
-    const auto at = place_of(fan_of(decimation, *removal), removal->onto, uvs);
-    if (!at) return std::nullopt;
-    uvs[removal->vertex] = *at;
+  int end = static_cast<int>(decimation.removals.size());
+  for (auto begin = decimation.passes.rbegin(); begin != decimation.passes.rend(); ++begin) {
+    if (!put_back_pass(decimation, *begin, end, threads, uvs)) return std::nullopt;
+    end = *begin;
   }
   return uvs;
 }

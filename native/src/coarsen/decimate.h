@@ -20,6 +20,7 @@ struct Decimation {
   Chart mesh;             ///< without UVs and guards; its surface is what is left of the chart's
   std::vector<int> kept;  ///< per vertex: the chart's vertex it is
   std::vector<Removal> removals;
+  std::vector<int> passes;  ///< the first removal of each: no two of one are neighbours
   /// Neighbours of removed vertices, counterclockwise; how far they were from the vertex; how far from the next neighbour.
   std::vector<int> ring;
   std::vector<float> spokes, rims;
@@ -31,6 +32,6 @@ std::optional<Decimation> decimate(const Chart& chart, double spacing);
 
 /// UVs of the chart from positive ones of the decimated mesh: each vertex comes back where its triangles are positive and their
 /// distortion is least. Nothing where rounding left no such place.
-std::optional<std::vector<Vec2>> put_back(const Decimation& decimation, const std::vector<Vec2>& coarse_uvs);
+std::optional<std::vector<Vec2>> put_back(const Decimation& decimation, const std::vector<Vec2>& coarse_uvs, int threads);
 
 }  // namespace atlas_refine

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "geometry/boundary.h"
 #include "geometry/guards.h"
@@ -28,8 +29,12 @@ struct Patch {
   std::vector<Triangle> elements;
   const ChartObjective& objective;
   std::vector<Vec2> x;
-  std::vector<char> fixed;               ///< per vertex
-  std::vector<std::vector<int>> around;  ///< per vertex: its elements
+  std::vector<char> fixed;                        ///< per vertex
+  std::vector<int> around_start, around_entries;  ///< the elements of each vertex
+
+  std::span<const int> around(int v) const {
+    return std::span(around_entries).subspan(around_start[v], around_start[v + 1] - around_start[v]);
+  }
 
   Mat2 jacobian_of(int e) const {
     const Triangle& t = elements[e];
@@ -58,7 +63,7 @@ std::vector<Vec2> interpolated(const CoarseChart& coarse, const std::vector<Vec2
 /// Energy of the elements around a vertex, finite for flipped ones where epsilon > 0.
 double local_energy(const Patch& patch, int v, double epsilon) {
   double sum = 0;
-  for (const int e : patch.around[v])
+  for (const int e : patch.around(v))
     sum += patch.objective.weight[e] *
            (epsilon > 0 ? foldover_energy(patch.jacobian_of(e), epsilon) : symmetric_dirichlet(patch.jacobian_of(e)));
   return sum;
@@ -69,9 +74,9 @@ void relax(Patch& patch, int v, double epsilon) {
   Vec2 gradient = Vec2::Zero();
   Mat2 hessian = Mat2::Zero();
   bool flipped = false;
-  for (const int e : patch.around[v]) flipped = flipped || !(patch.jacobian_of(e).determinant() > 0);
+  for (const int e : patch.around(v)) flipped = flipped || !(patch.jacobian_of(e).determinant() > 0);
   if (!flipped) epsilon = 0;
-  for (const int e : patch.around[v]) {
+  for (const int e : patch.around(v)) {
     const Triangle& t = patch.elements[e];
     const auto& x = patch.x;
     const TriangleDerivatives d =
@@ -108,15 +113,21 @@ std::vector<int> corners(const Patch& patch, const std::vector<int>& elements) {
 /// The elements around these vertices.
 std::vector<int> stars(const Patch& patch, const std::vector<int>& vertices) {
   std::vector<int> out;
-  for (const int v : vertices) out.insert(out.end(), patch.around[v].begin(), patch.around[v].end());
+  for (const int v : vertices) out.insert(out.end(), patch.around(v).begin(), patch.around(v).end());
   sort_unique(out);
   return out;
 }
 
 void find_stars(Patch& patch) {
-  patch.around.resize(patch.x.size());
+  patch.around_start.assign(patch.x.size() + 1, 0);
+  for (const Triangle& t : patch.elements) {
+    for (const int v : t) ++patch.around_start[v + 1];
+  }
+  std::partial_sum(patch.around_start.begin(), patch.around_start.end(), patch.around_start.begin());
+  std::vector<int> next(patch.around_start.begin(), patch.around_start.end() - 1);
+  patch.around_entries.resize(patch.around_start.back());
   for (int e = 0; e < static_cast<int>(patch.elements.size()); ++e) {
-    for (const int v : patch.elements[e]) patch.around[v].push_back(e);
+    for (const int v : patch.elements[e]) patch.around_entries[next[v]++] = e;
   }
 }
 
@@ -148,7 +159,12 @@ std::vector<double> energies(const Patch& patch) {
 
 /// In solver units.
 Patch patch_of(const Chart& chart, const ChartObjective& objective, double unit) {
-  Patch out{.elements = elements_of(chart), .objective = objective, .x = chart.uvs, .fixed = boundary_flags(chart), .around = {}};
+  Patch out{.elements = elements_of(chart),
+            .objective = objective,
+            .x = chart.uvs,
+            .fixed = boundary_flags(chart),
+            .around_start = {},
+            .around_entries = {}};
   for (Vec2& x : out.x) x /= unit;
   return out;
 }

@@ -121,20 +121,22 @@ class Sampling {
   Sample result() && { return std::move(sample_); }
 
  private:
-  /// All vertices around v that are nearer than its spacing, along edges.
+  /// All vertices around v that are nearer than its spacing, along edges. Few are reached twice: correcting those costs less than
+  /// a queue that is in order, and distances end the same.
   void cover(int v, int entry) {
     const auto reach = [&](int u, double distance) {
       if (distance >= spacing_[v] || (owner_[u] == entry && distance >= distance_[u])) return;
       owner_[u] = entry;
       distance_[u] = distance;
-      queue_.emplace(distance, u);
+      reached_.emplace_back(distance, u);
     };
+    reached_.clear();
     reach(v, 0);
-    while (!queue_.empty()) {
-      const auto [distance, at] = queue_.top();
-      queue_.pop();
+    for (std::size_t k = 0; k < reached_.size(); ++k) {
+      const double distance = reached_[k].first;
+      const int at = reached_[k].second;
       if (distance > distance_[at]) continue;
-      graph_.visit(at, [&, from = distance](int u, double length) { reach(u, from + length); });
+      graph_.visit(at, [&](int u, double length) { reach(u, distance + length); });
     }
   }
 
@@ -143,7 +145,7 @@ class Sampling {
   std::vector<int> owner_;
   std::vector<char> taken_;
   std::vector<double> distance_;  ///< from the owner
-  Queue queue_;
+  std::vector<Entry> reached_;
   Sample sample_;
 };
 

@@ -1,7 +1,9 @@
-// Connectivity of a chart's triangles, from an OpenMesh half-edge mesh.
+// Connectivity of a chart's triangles; of what is no manifold from an OpenMesh half-edge mesh.
 #include "geometry/half_edge_mesh.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+#include "geometry/manifold_topology.h"
 
 namespace atlas_refine {
 
@@ -70,6 +72,7 @@ std::vector<std::vector<int>> boundary_loops(const BuiltMesh& built) {
 }  // namespace
 
 MeshTopology mesh_topology(int vertex_count, const std::vector<Triangle>& triangles) {
+  if (auto known = manifold_topology(vertex_count, triangles)) return std::move(*known);
   const BuiltMesh built = build_mesh(vertex_count, triangles);
   MeshTopology topology;
   topology.boundary_loops = boundary_loops(built);

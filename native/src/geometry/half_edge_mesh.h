@@ -12,8 +12,8 @@ struct MeshTopology {
   int euler_characteristic = 0;                  ///< vertices in use - edges + triangles; 1 for a disk
 };
 
-/// Builds a half-edge mesh and reads its topology. Triangles must be consistently oriented where they share an edge; one that
-/// cannot be joined to the rest (non-manifold) is kept as a piece of its own, one with a repeated vertex is left out.
+/// Triangles must be consistently oriented where they share an edge; one that cannot be joined to the rest (non-manifold) is kept
+/// as a piece of its own, one with a repeated vertex is left out.
 MeshTopology mesh_topology(int vertex_count, const std::vector<Triangle>& triangles);
 
 }  // namespace atlas_refine

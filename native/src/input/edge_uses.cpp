@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "support/parallel.h"
+
 namespace atlas_refine {
 
 namespace {
@@ -32,22 +34,29 @@ void for_each_side(const Atlas& atlas, Body body) {
 
 }  // namespace
 
-std::vector<EdgeUse> edge_uses(const Atlas& atlas, const std::vector<int>& place) {
+std::vector<EdgeUse> edge_uses(const Atlas& atlas, const std::vector<int>& place, int threads) {
+  const auto lower_place = [&](int c, int next) {
+    return std::min(place[atlas.corner_vertices[c]], place[atlas.corner_vertices[next]]);
+  };
   std::vector<int> start(place.size() + 1, 0);  // of the uses of each lower place
-  for_each_side(atlas, [&](int c, int next) {
-    ++start[std::min(place[atlas.corner_vertices[c]], place[atlas.corner_vertices[next]]) + 1];
-  });
+  for_each_side(atlas, [&](int c, int next) { ++start[lower_place(c, next) + 1]; });
   std::partial_sum(start.begin(), start.end(), start.begin());
   std::vector<EdgeUse> uses(atlas.corner_count());
   std::vector<int> filled(start.begin(), start.end() - 1);
-  for_each_side(atlas, [&](int c, int next) {
-    const EdgeUse use = use_of(atlas, place, c, next);
-    uses[filled[use.low_place]++] = use;
+  // Each thread passes over all sides for those of its own places.
+  const int places = static_cast<int>(place.size());
+  parallel_ranges(threads, threads, 1, [&](int part, int parts_end) {
+    const int begin = static_cast<int>(static_cast<long long>(places) * part / threads);
+    const int end = static_cast<int>(static_cast<long long>(places) * parts_end / threads);
+    for_each_side(atlas, [&](int c, int next) {
+      const int low = lower_place(c, next);
+      if (low >= begin && low < end) uses[filled[low]++] = use_of(atlas, place, c, next);
+    });
+    for (int p = begin; p < end; ++p) {
+      std::sort(uses.begin() + start[p], uses.begin() + start[p + 1],
+                [](const EdgeUse& a, const EdgeUse& b) { return a.sort_key() < b.sort_key(); });
+    }
   });
-  for (std::size_t p = 0; p < place.size(); ++p) {
-    std::sort(uses.begin() + start[p], uses.begin() + start[p + 1],
-              [](const EdgeUse& a, const EdgeUse& b) { return a.sort_key() < b.sort_key(); });
-  }
   return uses;
 }
 

@@ -31,7 +31,7 @@ struct EdgeUse {
 using EdgeUses = std::span<const EdgeUse>;
 
 /// All edges of all faces, sorted by place, then by vertex; `place` is the point in space of each vertex.
-std::vector<EdgeUse> edge_uses(const Atlas& atlas, const std::vector<int>& place);
+std::vector<EdgeUse> edge_uses(const Atlas& atlas, const std::vector<int>& place, int threads = 1);
 
 /// Calls body(range) for every range of uses that `same` finds alike with its first one.
 template <class Same, class Body>

@@ -6,6 +6,7 @@
 #include "input/face_areas.h"
 #include "input/pair_uses.h"
 #include "input/places.h"
+#include "support/parallel.h"
 
 namespace atlas_refine {
 
@@ -17,6 +18,15 @@ std::vector<int> faces_of_corners(const Atlas& atlas) {
     std::fill(faces.begin() + atlas.face_offsets[f], faces.begin() + atlas.face_offsets[f + 1], f);
   }
   return faces;
+}
+
+std::vector<int> senses_of_faces(const Atlas& atlas) {
+  std::vector<int> senses(atlas.face_count());
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    const double area = doubled_uv_area(atlas, f);
+    senses[f] = area > 0 ? 1 : area < 0 ? -1 : 0;
+  }
+  return senses;
 }
 
 /// Goes through the charts face by face and winds each as the one that it is reached from.
@@ -102,17 +112,16 @@ void orient_faces(const Atlas& atlas, EdgeJoins& joins) {
   Winding(atlas, joins).run();
 }
 
-EdgeJoins join_edges(const Atlas& atlas, Joining joining, const std::vector<int>& groups) {
+EdgeJoins join_edges(const Atlas& atlas, Joining joining, const std::vector<int>& groups, int threads) {
   EdgeJoins joins;
-  joins.corner_faces = faces_of_corners(atlas);
-  joins.partners.assign(atlas.corner_count(), -1);
-  joins.alike.assign(atlas.corner_count(), false);
-  for (int f = 0; f < atlas.face_count(); ++f) {
-    const double area = doubled_uv_area(atlas, f);
-    joins.senses.push_back(area > 0 ? 1 : area < 0 ? -1 : 0);
-  }
-  joins.places = places(atlas);
-  const std::vector<EdgeUse> uses = edge_uses(atlas, joins.places);
+  side_by_side(threads, {[&] { joins.places = places(atlas); },
+                         [&] {
+                           joins.corner_faces = faces_of_corners(atlas);
+                           joins.partners.assign(atlas.corner_count(), -1);
+                           joins.alike.assign(atlas.corner_count(), false);
+                           joins.senses = senses_of_faces(atlas);
+                         }});
+  const std::vector<EdgeUse> uses = edge_uses(atlas, joins.places, threads);
   UsePairs pairs(atlas, joining, joins);
   for_each_edge(uses,
                 [&](EdgeUses edge) { for_each_group(edge, joins.corner_faces, groups, [&](EdgeUses own) { pairs.join(own); }); });

@@ -44,7 +44,7 @@ struct EdgeJoins {
 /// a sheet with the front. Of faces with the same corners in space, doubles of each other, the first are the sheet; doubles on
 /// one side are never joined. What is ambiguous then is joined within one chart only. Edges whose join would make a chart
 /// one-sided (Moebius) stay seams, so that charts are orientable, and manifold once corners are united across joins only.
-EdgeJoins join_edges(const Atlas& atlas, Joining joining, const std::vector<int>& groups = {});
+EdgeJoins join_edges(const Atlas& atlas, Joining joining, const std::vector<int>& groups = {}, int threads = 1);
 
 /// Winds the faces of each chart alike, and undoes joins that would make it one-sided, folds and faces without area first.
 void orient_faces(const Atlas& atlas, EdgeJoins& joins);

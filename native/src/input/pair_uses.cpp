@@ -44,7 +44,13 @@ UsePairs::UsePairs(const Atlas& atlas, Joining joining, EdgeJoins& joins)
 
 void UsePairs::join(EdgeUses uses) {
   if (uses.size() < 2) return;
-  if (uses.size() == 2) shells_.unite(joins_.corner_faces[uses[0].corner], joins_.corner_faces[uses[1].corner]);
+  if (uses.size() == 2) {
+    const EdgeUse &a = uses[0], &b = uses[1];
+    shells_.unite(joins_.corner_faces[a.corner], joins_.corner_faces[b.corner]);
+    // Nearly all edges have two uses that agree: those need no order.
+    if (a.vertex_key() == b.vertex_key() && a.uv_key(atlas_) == b.uv_key(atlas_)) join_equal(uses);
+    if (joins_.partners[a.corner] >= 0) return;
+  }
   for_each_range(
       uses, [](const EdgeUse& a, const EdgeUse& b) { return a.vertex_key() == b.vertex_key(); },
       [&](EdgeUses range) {
@@ -157,6 +163,7 @@ void UsePairs::join_sheets(const Group& left, const Group& right) {
 }
 
 void UsePairs::join_ambiguous() {
+  if (ambiguous_.empty()) return;
   DisjointSets charts(atlas_.face_count());
   for (std::size_t c = 0; c < joins_.partners.size(); ++c) {
     if (joins_.partners[c] >= 0) charts.unite(joins_.corner_faces[c], joins_.corner_faces[joins_.partners[c]]);

@@ -14,11 +14,14 @@
 #include "input/settle_noise.h"
 #include "input/surfaces.h"
 #include "support/disjoint_sets.h"
+#include "support/parallel.h"
 #include "support/profile.h"
 
 namespace atlas_refine {
 
 namespace {
+
+constexpr int kFewCorners = 20000;  // are not worth a second thread
 
 /// The chart of every face; charts are ordered by their smallest face.
 struct FaceCharts {
@@ -32,6 +35,7 @@ FaceCharts number_charts(const Atlas& atlas, const EdgeJoins& joins) {
     if (joins.partners[c] > c) joined.unite(joins.corner_faces[c], joins.corner_faces[joins.partners[c]]);
   }
   FaceCharts charts;
+  charts.chart.reserve(atlas.face_count());
   for (int f = 0; f < atlas.face_count(); ++f) {
     const int first = joined.find(f);
     charts.chart.push_back(first == f ? charts.count++ : charts.chart[first]);
@@ -108,6 +112,7 @@ std::vector<CornerRef> number_vertices(const Atlas& atlas, const EdgeJoins& join
     sets.unite(c_end, alike ? partner : partner_end);
   }
   std::vector<CornerRef> corners;
+  corners.reserve(atlas.corner_count());
   std::vector<int> counts(charts.count, 0);
   for (int c = 0; c < atlas.corner_count(); ++c) {
     const int k = charts.chart[joins.corner_faces[c]];
@@ -167,10 +172,11 @@ std::vector<std::vector<int>> boundary_loops(const Chart& chart) {
 
 }  // namespace
 
-ChartSet split_charts(const Atlas& atlas, Joining joining, const std::vector<int>& groups) {
+ChartSet split_charts(const Atlas& atlas, Joining joining, const std::vector<int>& groups, int threads) {
   const PhaseScope scope(Phase::Input);
   check_atlas(atlas);
-  EdgeJoins joins = join_edges(atlas, joining, groups);
+  if (atlas.corner_count() < kFewCorners) threads = 1;
+  EdgeJoins joins = join_edges(atlas, joining, groups, threads);
   std::vector<std::array<int, 2>> parted;
   if (joining == Joining::AsMeant) parted = part_folds(atlas, joins);
   const FaceCharts face_charts = number_charts(atlas, joins);
@@ -187,8 +193,10 @@ ChartSet split_charts(const Atlas& atlas, Joining joining, const std::vector<int
   FaceTriangles faces = triangulate_faces(atlas, set.corners, sides.turned_faces, set.charts);
   set.defects = std::move(faces.defects);
   set.readings = std::move(faces.readings);
-  set_surfaces(set.charts, vertex_positions(atlas, set.corners, set.charts.size()));
-  for (Chart& chart : set.charts) chart.boundary_loops = boundary_loops(chart);
+  side_by_side(threads, {[&] { set_surfaces(set.charts, vertex_positions(atlas, set.corners, set.charts.size())); },
+                         [&] {
+                           for (Chart& chart : set.charts) chart.boundary_loops = boundary_loops(chart);
+                         }});
   for (std::size_t k = 0; k < set.charts.size(); ++k) set.charts[k].number = static_cast<int>(k);
   return set;
 }

@@ -41,7 +41,8 @@ struct ChartSet {
 /// slivers, else by a triangulation of the UV polygon. Throws RefineError(BadInput) for arrays that do not fit together, indices
 /// out of range, NaN or no faces.
 /// `groups`: one number per face, or empty; faces of different ones share no chart.
-ChartSet split_charts(const Atlas& atlas, Joining joining = Joining::AsMeant, const std::vector<int>& groups = {});
+ChartSet split_charts(const Atlas& atlas, Joining joining = Joining::AsMeant, const std::vector<int>& groups = {},
+                      int threads = 1);
 
 /// These charts of the set alone, in this order; `seam_edges` and `seam_length` are not theirs and stay 0.
 ChartSet select_charts(const ChartSet& set, const std::vector<int>& charts);

@@ -110,12 +110,21 @@ std::vector<double> triangle_stretch(const Chart& chart, double scale) {
 double stretch_99(std::vector<StretchedArea> all) {
   double total = 0, below = 0;
   for (const StretchedArea& one : all) total += one.area;
-  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.stretch < b.stretch; });
-  for (const StretchedArea& one : all) {
-    below += one.area;
-    if (below >= kPercentile * total) return one.stretch;
+  // Halved until one is left: the half that it is not in needs no order.
+  auto first = all.begin(), last = all.end();
+  while (last - first > 1) {
+    const auto middle = first + (last - first) / 2;
+    std::nth_element(first, middle, last, [](const auto& a, const auto& b) { return a.stretch < b.stretch; });
+    double before = below;
+    for (auto one = first; one != middle; ++one) before += one->area;
+    if (before >= kPercentile * total) {
+      last = middle;
+    } else {
+      below = before;
+      first = middle;
+    }
   }
-  return all.back().stretch;
+  return first->stretch;
 }
 
 double stretch_99(const std::vector<Chart>& charts, double scale) {

@@ -204,7 +204,7 @@ std::optional<Chart> from_decimated(const Chart& chart, int threads, Monitor& mo
   const Chart start = validly_stretched(*disk);
   const ReduceResult end = downhill(start, make_objective({start}), kRoughlySettled, threads, monitor);
   if (!(end.energy <= kCollapsed)) return std::nullopt;
-  auto uvs = put_back(*coarse, end.uvs[0]);
+  auto uvs = put_back(*coarse, end.uvs[0], threads);
   if (!uvs) return std::nullopt;
   Chart out = chart;
   out.uvs = std::move(*uvs);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numeric>
 
 #include "atlas_refine/error.h"
@@ -239,34 +238,31 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
   output.vertex_meshes = std::move(faces.vertex_meshes);
   if (!divided) output.triangles = readers_triangles(input);
   for (const CornerRef& corner : faces.corners) output.corner_uvs.push_back(out.uvs[corner.chart][corner.vertex]);
-  ChartSet set = split_charts(output, Joining::Exact);
-  const Freedoms freedom_after = freedom_of_output(set, faces.corners, freedom);
-  excuse_fixed(set, freedom_after);
-  out.seams = seams_of(set);
-  out.triangulations = count_readings(set.readings);
-  out.mirrored_pieces = static_cast<int>(std::count(set.mirrored.begin(), set.mirrored.end(), true));
-  if (!divided) out.worse_faces = worse_faces(input.set.readings, set.readings);
   double to_input = 0;
-  const std::array<std::function<void()>, 2> tests = {
-      [&] {
-        require_valid(input, output, set, freedom_after, out.stored, cut);
-        stretch_to_texture(set.charts, options.box_aspect);
-        out.after = measure_split(set, options.box_aspect);
-        measure_in_texture(charts_as_placed(set), freedom_after, input.origin, options, out.after);
-      },
-      [&] {
-        require_guards(output, out.stored, options.stored);
-        stretch_to_texture(out.stored, options.box_aspect);
-        require_gap(output, out.stored, freedom, gap, options);
-        require_border(output, out.stored, freedom, input.origin, options);
-        // The same triangles in the same order as the input's: only then can E_2 be told.
-        to_input = dirichlet_sums_between(pieces_of_input(input, atlas), out.stored).best_energy();
-        out.charts = chart_reports(input, out.stored, charts_of(atlas));
-        if (cut) out.pieces = piece_reports(out.stored, atlas, faces);
-      }};
-  parallel_ranges(static_cast<int>(tests.size()), resolve_threads(options.threads), 1, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) tests[k]();
-  });
+  const int threads = resolve_threads(options.threads);
+  side_by_side(threads, {[&] {
+                           ChartSet set = split_charts(output, Joining::Exact, {}, threads);
+                           const Freedoms freedom_after = freedom_of_output(set, faces.corners, freedom);
+                           excuse_fixed(set, freedom_after);
+                           out.seams = seams_of(set);
+                           out.triangulations = count_readings(set.readings);
+                           out.mirrored_pieces = static_cast<int>(std::count(set.mirrored.begin(), set.mirrored.end(), true));
+                           if (!divided) out.worse_faces = worse_faces(input.set.readings, set.readings);
+                           require_valid(input, output, set, freedom_after, out.stored, cut);
+                           stretch_to_texture(set.charts, options.box_aspect);
+                           out.after = measure_split(set, options.box_aspect);
+                           measure_in_texture(charts_as_placed(set), freedom_after, input.origin, options, out.after);
+                         },
+                         [&] {
+                           require_guards(output, out.stored, options.stored);
+                           stretch_to_texture(out.stored, options.box_aspect);
+                           require_gap(output, out.stored, freedom, gap, options);
+                           require_border(output, out.stored, freedom, input.origin, options);
+                           // The same triangles in the same order as the input's: only then can E_2 be told.
+                           to_input = dirichlet_sums_between(pieces_of_input(input, atlas), out.stored).best_energy();
+                           out.charts = chart_reports(input, out.stored, charts_of(atlas));
+                           if (cut) out.pieces = piece_reports(out.stored, atlas, faces);
+                         }});
   out.after.distortion_to_input = to_input;
   return out;
 }

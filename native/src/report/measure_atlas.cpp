@@ -10,6 +10,7 @@
 #include "measure/metrics.h"
 #include "report/options.h"
 #include "report/texture.h"
+#include "support/parallel.h"
 
 namespace atlas_refine {
 
@@ -42,7 +43,7 @@ Measures measure(const Atlas& atlas, double box_aspect, bool in_texture) {
 }
 
 InputAtlas read_atlas(const Atlas& atlas, const RefineOptions& options) {
-  InputAtlas input{atlas, split_charts(atlas, Joining::AsMeant, options.groups)};
+  InputAtlas input{atlas, split_charts(atlas, Joining::AsMeant, options.groups, resolve_threads(options.threads))};
   for (Chart& chart : input.set.charts)
     stretch_to_texture(chart, options_of_group(options, group_of(chart, options.groups)).box_aspect);
   return input;

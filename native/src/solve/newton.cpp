@@ -79,19 +79,28 @@ std::vector<double> triangle_energies(const Objective& objective, const std::vec
 void add_dirichlet(const Objective& objective, const std::vector<Triangle>& triangles, const TriangleSlots& slots,
                    const std::vector<Vec2>& x, int threads, BlockSystem& system) {
   const PhaseScope scope(Phase::Assemble);
-  constexpr int kBlock = 4096;  // bounds the buffer
-  const int count = static_cast<int>(triangles.size());
-  std::vector<TriangleDerivatives> buffer(std::min(kBlock, count));
-  for (int begin = 0; begin < count; begin += kBlock) {
-    const int end = std::min(count, begin + kBlock);
-    parallel_ranges(end - begin, threads, kBlock / 4, [&](int from, int to) {
-      for (int k = from; k < to; ++k) {
-        const Triangle& v = triangles[begin + k];
-        buffer[k] = symmetric_dirichlet_derivatives(objective.inverse_edges[begin + k], x[v[0]], x[v[1]], x[v[2]]);
-      }
-    });
-    for (int t = begin; t < end; ++t) add_triangle(triangles[t], slots[t], objective.weight[t], buffer[t - begin], system);
-  }
+  constexpr int kBlock = 512;  // triangles: few enough for a core's cache
+  constexpr int kFewBlocks = 4;
+  const int count = static_cast<int>(triangles.size()), blocks = (count + kBlock - 1) / kBlock;
+  const int buffers = blocks > kFewBlocks ? threads : 1;
+  std::vector<TriangleDerivatives> buffer(static_cast<std::size_t>(buffers) * std::min(kBlock, count));
+  const auto for_block = [&](int block, int slot, auto&& body) {
+    TriangleDerivatives* own = buffer.data() + static_cast<std::ptrdiff_t>(slot) * kBlock;
+    for (int t = block * kBlock; t < std::min(count, (block + 1) * kBlock); ++t) body(t, *own++);
+  };
+  parallel_in_order(
+      blocks, buffers,
+      [&](int block, int slot) {
+        for_block(block, slot, [&](int t, TriangleDerivatives& own) {
+          const Triangle& v = triangles[t];
+          own = symmetric_dirichlet_derivatives(objective.inverse_edges[t], x[v[0]], x[v[1]], x[v[2]]);
+        });
+      },
+      [&](int block, int slot) {
+        for_block(block, slot, [&](int t, const TriangleDerivatives& own) {
+          add_triangle(triangles[t], slots[t], objective.weight[t], own, system);
+        });
+      });
 }
 
 std::optional<double> factor_damped(BlockSystem& system, const std::vector<double>& masses, const Damping& damping, int threads) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 namespace atlas_refine {
 
@@ -13,5 +14,13 @@ int resolve_threads(int requested);
 /// Runs in the calling thread where `threads` is 1 or `count` is below twice the `grain`, else on the pool of this thread
 /// (support/thread_pool.h) or, where it has none, on threads for this call.
 void parallel_ranges(int count, int threads, int grain, const std::function<void(int, int)>& body);
+
+/// Calls all tasks, in any order; returns when all are done. The exception of the first that failed in this list is rethrown.
+void side_by_side(int threads, const std::vector<std::function<void()>>& tasks);
+
+/// Calls prepare(k, slot) for every index below `count` in any order, and after it add(k, slot) in ascending order. No two
+/// indices under way share a slot below `threads`. Neither may throw.
+void parallel_in_order(int count, int threads, const std::function<void(int, int)>& prepare,
+                       const std::function<void(int, int)>& add);
 
 }  // namespace atlas_refine
