@@ -57,7 +57,7 @@ def _textures(holder, context):
     if holder.atlases != "MATERIAL":
         return {"": find_texture(context, active, holder.atlases)}
     slots = active.material_slots if active is not None else ()
-    names = [slot.material.name for slot in slots if slot.material]
+    names = [slot.material.name_full for slot in slots if slot.material]
     return {name: texture_of_material(context, name) for name in names} or {"": texture_of_material(context, "")}
 
 
@@ -88,20 +88,15 @@ def _draw_uv_map(layout, holder, obj):
         layout.prop(holder, "uv_map")
 
 
-def draw_protected(layout, holder, context):
+def draw_protected(layout, holder):
     """What is kept as it is: names of vertex groups and attributes."""
-    obj = context.active_object
-    is_mesh = obj is not None and obj.type == "MESH"
-    for name in ("keep_shape", "importance"):
-        if is_mesh and obj.vertex_groups:
-            layout.prop_search(holder, name, obj, "vertex_groups")
-        else:
-            layout.prop(holder, name)
-    for name in ("no_seam", "prefer_seam"):
-        if is_mesh:
-            layout.prop_search(holder, name, obj.data, "attributes", icon="EDGESEL")
-        else:
-            layout.prop(holder, name)
+    for name, icon in (
+        ("keep_shape", "GROUP_VERTEX"),
+        ("importance", "GROUP_VERTEX"),
+        ("no_seam", "EDGESEL"),
+        ("prefer_seam", "EDGESEL"),
+    ):
+        layout.prop(holder, name, icon=icon)
     layout.prop(holder, "mark_seams")
 
 

@@ -158,11 +158,11 @@ class Operator(unittest.TestCase):
         self.assertNotEqual(after[16:].tobytes(), uvs[16:].tobytes())
         uvs[:] = np.nan
         set_uvs(obj.data.uv_layers.active, uvs)
-        self.assert_refused(obj, ["face 0"])
+        self.assert_refused(obj, ["no face has UVs: unwrap the mesh"])
 
     def test_a_bound_out_of_reach(self):
         options = {"pe_bound": 0.999, "gap": "PIXELS", "gap_px": 50, "texture_size": 1024}
-        self.assert_refused(add_mesh(), ["the gap to the border of the texture leaves 0.81"], **options)
+        self.assert_refused(add_mesh(), ["the margin to the border of the texture leaves 0.81"], **options)
         options["aspect"] = "FREE"
         self.assert_refused(add_mesh(), ["the best found is texture use"], **options)
         obj = add_mesh()

@@ -76,12 +76,12 @@ def scale_of(obj):
 
 
 def material_names(objs):
-    """By the numbers that materials_of() gives them."""
+    """By the numbers that materials_of() gives them: those that tell materials of several libraries apart."""
     return tuple(dict.fromkeys(name for obj in objs for name in _of_slots(obj)))
 
 
 def _of_slots(obj):
-    return [slot.material.name if slot.material else "" for slot in obj.material_slots] or [""]
+    return [slot.material.name_full if slot.material else "" for slot in obj.material_slots] or [""]
 
 
 def materials_of(obj, mesh, numbers):
