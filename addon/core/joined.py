@@ -21,6 +21,7 @@ class Part:
     selected: np.ndarray
     pinned: np.ndarray
     materials: np.ndarray  # (F,) int: a number for each material, the same in all parts
+    mesh_name: str = ""
     scale: float = 1.0  # of the object in the world
     keep_shape: np.ndarray | None = None  # (F,) bool
     importance: np.ndarray | None = None  # (F,) float
