@@ -36,7 +36,7 @@ def find(engine, atlas, triangles, name, left):
     """Indices of faces by kind; `triangles`: how Blender divides larger faces; `left`: those that the last refinement left as they
     are."""
     own = {"non_manifold": faces_at_fault(atlas), "left": left}
-    if np.isfinite(atlas.corner_uvs).any():
+    if atlas.has_uvs:
         return {**engine.find_problems(*atlas.as_tuple(), triangles=triangles, name=name), **own}
     none = np.zeros(0, dtype=np.int32)
     return {**dict.fromkeys(KINDS, none), "unwrapped": np.arange(len(atlas.face_offsets) - 1), **own}

@@ -110,7 +110,7 @@ def prepare(engine, parts, options, canvases=ONE_CANVAS, metres=1.0, moves=True)
     `metres`: in a unit of Blender; `moves`: charts are to be moved; else it is no matter that all of them stay. Sets Part.taken.
 
     Raises NothingToDoError."""
-    if not any(np.isfinite(part.atlas.corner_uvs).any() for part in parts):
+    if not any(part.atlas.has_uvs for part in parts):
         raise NothingToDoError(_why_nothing(parts))
     locked = [_choose(engine, part, options) for part in parts]
     staying = locked if moves else [np.zeros_like(flags) for flags in locked]
@@ -162,7 +162,7 @@ def _without_locked(densities, groups, locked):
 def _why_nothing(parts):
     if not any(len(part.hidden) for part in parts):
         return "the mesh has no faces"
-    if not any(np.isfinite(part.atlas.corner_uvs).any() for part in parts):
+    if not any(part.atlas.has_uvs for part in parts):
         return "no face has UVs: unwrap the mesh"
     if all(part.hidden.all() for part in parts):
         return "all faces are hidden"

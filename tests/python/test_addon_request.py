@@ -212,7 +212,7 @@ def test_what_only_looks_asks_for_nothing_that_may_move():
     with pytest.raises(NothingToDoError, match="pinned"):
         prepare(atlas_refine, [part], FREE)
     assert prepare(atlas_refine, [part], FREE, moves=False).face_count == 102
-    part.atlas.corner_uvs[:] = np.nan
+    part.atlas.corner_uvs[::4, 0] = np.nan  # one of each face
     with pytest.raises(NothingToDoError, match="no face has UVs: unwrap the mesh"):
         prepare(atlas_refine, [part], FREE, moves=False)
 
