@@ -90,20 +90,23 @@ def _draw_uv_map(layout, holder, obj):
 
 def draw_protected(layout, holder):
     """What is kept as it is: names of vertex groups and attributes."""
+    labels = bpy.context.scene.atlas_refine.bl_rna.properties  # an operator's own have none
     for name, icon in (
         ("keep_shape", "GROUP_VERTEX"),
         ("importance", "GROUP_VERTEX"),
         ("no_seam", "EDGESEL"),
         ("prefer_seam", "EDGESEL"),
     ):
-        layout.prop(holder, name, icon=icon)
-    layout.prop(holder, "mark_seams")
+        halves = layout.split(factor=0.5)
+        halves.label(text=labels[name].name)
+        halves.prop(holder, name, text="", icon=icon)
+    _with_long_names(layout).prop(holder, "mark_seams")
 
 
 def draw_advanced(layout, holder):
-    layout.prop(holder, "relax")
-    layout.prop(holder, "open_closed")
-    layout.prop(holder, "best_effort")
+    flags = _with_long_names(layout)
+    for name in ("relax", "open_closed", "best_effort"):
+        flags.prop(holder, name)
     if holder.seams == "NEEDED":
         layout.prop(holder, "effort")
         if holder.max_distortion == 0 and holder.max_stretch == 0:
