@@ -60,7 +60,8 @@ class Selecting(_Look):
             name, left = obj.name, tasks.faces_left(obj.name)
             with bridge.mesh_to_read(obj) as mesh:
                 yield
-                atlas, triangles = bridge.atlas_of(mesh, uv_map), bridge.triangles_of(mesh)
+                atlas = bridge.atlas_of(mesh, uv_map)
+                triangles = bridge.triangles_of(mesh, atlas)
             looked_at = atlas, triangles, name, left
             found = yield lambda looked_at=looked_at: problems.find(engine.module, *looked_at)
             self._faces.append((name, uv_map, {kind: found[kind] for kind in self._kinds}))
