@@ -52,7 +52,7 @@ class Atlas:
         self.title = objs[0].name if len(objs) == 1 else counted(len(objs), "object")
         self.job = None
 
-    def read(self, context, objs):
+    def read(self, context, objs, moves=True):
         """In steps. Raises one of tasks.FAILURES where the objects cannot be refined so."""
         options, material_numbers = self.options, {}
         self.metres = context.scene.unit_settings.scale_length
@@ -62,7 +62,7 @@ class Atlas:
         _require_names(self.parts, options)
         materials = list(material_numbers)
         canvases = find_canvases(context, objs, materials, options.atlases)
-        self.request = yield lambda: prepare(engine.module, self.parts, options, canvases, self.metres)
+        self.request = yield lambda: prepare(engine.module, self.parts, options, canvases, self.metres, moves)
         if options.seams != "NONE" and options.cut == "SPLIT":
             for obj in objs:
                 cuts.check_divisible(obj)
@@ -167,8 +167,9 @@ class Atlas:
         """What the panel shows of the meshes as they are: a Done for each texture or tile."""
         prints = self.prints()
         densities = list(self._densities())
-        for (name, arrays, aspect), density in zip(self.request.boxes(), densities, strict=True):
-            measures = engine.measure(*arrays, box_aspect=aspect, in_texture=self.request.arguments["in_texture"])
+        in_texture = self.request.arguments["in_texture"]
+        for (name, arrays, triangles, aspect), density in zip(self.request.boxes(), densities, strict=True):
+            measures = engine.measure(*arrays, box_aspect=aspect, in_texture=in_texture, triangles=triangles)
             title = ", ".join(filter(None, (self.title, name)))
             yield self._shown(prints, title, densities=(("", density[1]),), measures=measures)
 
@@ -184,10 +185,11 @@ class Atlas:
 
 
 def _still_there(part):
-    """The object of that name, in steps, where it still holds what was read."""
-    obj = bpy.data.objects.get(part.name)
+    """The object, in steps, where it still holds what was read."""
+    obj = bpy.data.objects.get(part.name) or objects.object_of_mesh(part.mesh_name)
     if obj is None or obj.type != "MESH":
         raise bridge.MeshError(f"{part.name} is gone; nothing was written")
+    part.name = obj.name  # it may have been renamed
     if part.uv_map in obj.data.uv_layers:
         atlas = yield from bridge.read_in_steps(obj, part.uv_map)
         if (yield lambda: atlas.same_as(part.atlas)):

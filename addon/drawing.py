@@ -57,7 +57,7 @@ def _textures(holder, context):
     if holder.atlases != "MATERIAL":
         return {"": find_texture(context, active, holder.atlases)}
     slots = active.material_slots if active is not None else ()
-    names = [slot.material.name for slot in slots if slot.material]
+    names = [slot.material.name_full for slot in slots if slot.material]
     return {name: texture_of_material(context, name) for name in names} or {"": texture_of_material(context, "")}
 
 
@@ -88,27 +88,25 @@ def _draw_uv_map(layout, holder, obj):
         layout.prop(holder, "uv_map")
 
 
-def draw_protected(layout, holder, context):
+def draw_protected(layout, holder):
     """What is kept as it is: names of vertex groups and attributes."""
-    obj = context.active_object
-    is_mesh = obj is not None and obj.type == "MESH"
-    for name in ("keep_shape", "importance"):
-        if is_mesh and obj.vertex_groups:
-            layout.prop_search(holder, name, obj, "vertex_groups")
-        else:
-            layout.prop(holder, name)
-    for name in ("no_seam", "prefer_seam"):
-        if is_mesh:
-            layout.prop_search(holder, name, obj.data, "attributes", icon="EDGESEL")
-        else:
-            layout.prop(holder, name)
-    layout.prop(holder, "mark_seams")
+    labels = bpy.context.scene.atlas_refine.bl_rna.properties  # an operator's own have none
+    for name, icon in (
+        ("keep_shape", "GROUP_VERTEX"),
+        ("importance", "GROUP_VERTEX"),
+        ("no_seam", "EDGESEL"),
+        ("prefer_seam", "EDGESEL"),
+    ):
+        halves = layout.split(factor=0.5)
+        halves.label(text=labels[name].name)
+        halves.prop(holder, name, text="", icon=icon)
+    _with_long_names(layout).prop(holder, "mark_seams")
 
 
 def draw_advanced(layout, holder):
-    layout.prop(holder, "relax")
-    layout.prop(holder, "open_closed")
-    layout.prop(holder, "best_effort")
+    flags = _with_long_names(layout)
+    for name in ("relax", "open_closed", "best_effort"):
+        flags.prop(holder, name)
     if holder.seams == "NEEDED":
         layout.prop(holder, "effort")
         if holder.max_distortion == 0 and holder.max_stretch == 0:

@@ -118,6 +118,7 @@ def _refine(item, options, arguments, at):
     asked = {"program": "atlas-refine", "version": engine.module.__version__, "options": asdict(options)}
     asked.update(objects=arguments.chosen, point=arguments.point)
     record = {**asked, "blender": bpy.app.version_string, "input": str(item.source), "output": str(item.output)}
+    record.update(atlases=[], problems=[], left_out=[])  # of a file that fails as a whole too
     lines = []
     print(f"[{at}/{len(arguments.items)}] {item.source}", flush=True)
     try:

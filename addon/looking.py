@@ -26,7 +26,7 @@ class Measuring(_Look):
 
     def _begin(self, context, options):
         options = replace(options, seams="NONE")  # it cuts nothing: what bars cuts is no matter
-        self.atlases = yield from self._read(context, options)
+        self.atlases = yield from tasks.read_atlases(context, options, self.problems, moves=False)
         self._at = len(self.atlases)
 
     def _write(self):
@@ -58,8 +58,12 @@ class Selecting(_Look):
         for obj in usable:
             uv_map = bridge.find_uv_map(obj.data, options.uv_map)
             name, left = obj.name, tasks.faces_left(obj.name)
-            atlas = yield from bridge.read_in_steps(obj, uv_map)
-            found = yield lambda atlas=atlas, name=name, left=left: problems.find(engine.module, atlas, name, left)
+            with bridge.mesh_to_read(obj) as mesh:
+                yield
+                atlas = bridge.atlas_of(mesh, uv_map)
+                triangles = bridge.triangles_of(mesh, atlas)
+            looked_at = atlas, triangles, name, left
+            found = yield lambda looked_at=looked_at: problems.find(engine.module, *looked_at)
             self._faces.append((name, uv_map, {kind: found[kind] for kind in self._kinds}))
         self.atlases = self._faces
         self._at = len(self.atlases)
@@ -76,6 +80,6 @@ class Selecting(_Look):
         for obj, (name, uv_map, faces) in zip(objs, self._faces, strict=True):
             yield
             yield from selection.select_in_steps(obj, uv_map, {int(face) for found in faces.values() for face in found})
-            words = [counted(len(found), f"{problems.KINDS[kind].word} face") for kind, found in faces.items() if len(found)]
+            words = [f"{counted(len(found), 'face')} {problems.KINDS[kind].word}" for kind, found in faces.items() if len(found)]
             told.append((name, ", ".join(words) or "no problems"))
         self._written = told

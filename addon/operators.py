@@ -60,7 +60,7 @@ class UV_OT_atlas_refine(_Refines, bpy.types.Operator):
         layout.use_property_split = True
         drawing.draw_use(layout, self)
         drawing.draw_main(layout, self, context)
-        drawing.draw_protected(layout, self, context)
+        drawing.draw_protected(layout, self)
         drawing.draw_advanced(layout, self)
 
     def execute(self, context):

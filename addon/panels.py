@@ -91,7 +91,7 @@ class _Protected:
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        drawing.draw_protected(_column(self.layout), context.scene.atlas_refine, context)
+        drawing.draw_protected(_column(self.layout), context.scene.atlas_refine)
 
 
 class _Advanced:

@@ -3,6 +3,7 @@
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
+from .bridge.named import names_of_edges, names_of_faces
 from .core.options import Options
 
 #: Limits are soft where a script's 1.2 must reach the engine and be refused there, not be cut off in silence.
@@ -99,8 +100,18 @@ def _flag(name, label, description):
     return BoolProperty(name=label, description=description, default=getattr(Options, name))
 
 
-def _name(label, description):
-    return StringProperty(name=label, description=description, default="")
+def _name(label, description, **more):
+    return StringProperty(name=label, description=description, default="", **more)
+
+
+def _name_of(names, label, description):
+    """`names`: of the active object, which are offered; others may be those of another object."""
+
+    def offered(_holder, context, _text):
+        obj = context.active_object
+        return names(obj) if obj is not None and obj.type == "MESH" else []
+
+    return _name(label, description, search=offered)
 
 
 def _box_properties():
@@ -200,15 +211,18 @@ def _chart_properties():
             soft_max=4096.0,
             precision=1,
         ),
-        "keep_shape": _name(
-            "Keep Shape", "Vertex group or face attribute: charts with such a face are moved and turned, never bent"
+        "keep_shape": _name_of(
+            names_of_faces,
+            "Keep Shape",
+            "Vertex group or face attribute: charts with such a face are moved and turned, never bent",
         ),
-        "importance": _name(
+        "importance": _name_of(
+            names_of_faces,
             "Importance",
             "Vertex group or face attribute from 0 to 1: faces at 1 resist distortion ten times as much as those at 0",
         ),
-        "no_seam": _name("No Seams", "Edge attribute: no new seam runs along these edges"),
-        "prefer_seam": _name("Prefer Seams", "Edge attribute: new seams along edges like to follow these"),
+        "no_seam": _name_of(names_of_edges, "No Seams", "Edge attribute: no new seam runs along these edges"),
+        "prefer_seam": _name_of(names_of_edges, "Prefer Seams", "Edge attribute: new seams along edges like to follow these"),
         "write_to": _choice(
             "write_to",
             "Write To",

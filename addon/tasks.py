@@ -157,8 +157,8 @@ class Run:
         self._written = out
 
 
-def read_atlases(context, options, problems):
-    """In steps: the atlases that the options ask for; what cannot be used goes to `problems`."""
+def read_atlases(context, options, problems, moves=True):
+    """In steps: the atlases that the options ask for; what cannot be used goes to `problems`. `moves`: as of prepare()."""
     usable, without_map = usable_objects(context, options, problems)
     if not usable:
         problems += without_map
@@ -167,7 +167,7 @@ def read_atlases(context, options, problems):
     for objs in ([obj] for obj in usable) if by_object else [usable] if usable else []:
         atlas = Atlas(options, objs)
         try:
-            yield from atlas.read(context, objs)
+            yield from atlas.read(context, objs, moves)
             out.append(atlas)
         except NothingToDoError as error:
             idle.append((atlas.title, str(error)))

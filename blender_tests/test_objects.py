@@ -93,6 +93,27 @@ class Objects(unittest.TestCase):
         self.assertIn("2 objects, Skin: Texture use 8", told)
         self.assertIn("2 objects, Cloth: Texture use 8", told)
 
+    def test_materials_of_one_name_from_two_libraries_are_two(self):
+        sizes = ((1024, 512), (512, 1024))
+        paths = [str(pathlib.Path(bpy.app.tempdir) / f"skin_{number}.blend") for number in range(len(sizes))]
+        for path, size in zip(paths, sizes, strict=True):
+            fresh_scene()
+            skin = bpy.data.materials.new("Skin")
+            skin.use_nodes = True
+            skin.node_tree.nodes.new("ShaderNodeTexImage").image = bpy.data.images.new("Map", *size)
+            bpy.data.libraries.write(path, {skin})
+        fresh_scene()
+        objs = add_two()
+        for obj, path in zip(objs, paths, strict=True):
+            with bpy.data.libraries.load(path, link=True) as (_, there):
+                there.materials = ["Skin"]
+            obj.data.materials.append(there.materials[0])
+        bpy.ops.uv.atlas_refine(atlases="MATERIAL")
+        for obj, size in zip(objs, sizes, strict=True):
+            self.assertGreaterEqual(texture_share(obj), 0.8)
+            uvs = uvs_of(obj).astype(np.float64)
+            self.assertAlmostEqual((np.minimum(uvs, 1 - uvs) * size).min(), 4.0, delta=0.1)
+
     def test_with_one_each_an_object_has_its_own_image(self):
         objs = add_two()
         for obj, size in zip(objs, ((1024, 256), (256, 1024)), strict=True):
@@ -456,6 +477,21 @@ class Names(unittest.TestCase):
         bpy.ops.uv.atlas_refine(seams="RECTANGLES", mark_seams=False)
         self.assertFalse(any(edge.use_seam for edge in self.obj.data.edges))
 
+    def test_the_names_that_the_panel_offers_are_of_what_is_read(self):
+        self.obj.vertex_groups.new(name="Rigid")
+        for name, kind, domain in (
+            ("Face", "FLOAT", "FACE"),
+            ("Edge", "BOOLEAN", "EDGE"),
+            ("Vertex", "FLOAT", "POINT"),
+            ("Word", "STRING", "EDGE"),
+        ):
+            self.obj.data.attributes.new(name, kind, domain)
+        named = sys.modules[f"{MODULE}.bridge.named"]
+        faces, edges = named.names_of_faces(self.obj), named.names_of_edges(self.obj)
+        self.assertLessEqual({"Rigid", "Face"}, set(faces))
+        self.assertIn("Edge", edges)
+        self.assertFalse({"Vertex", "Word", "UVMap"} & {*faces, *edges})
+
     def test_a_name_that_nothing_has_is_refused(self):
         before = snapshot(self.obj)
         for option in ("keep_shape", "importance", "no_seam", "prefer_seam"):
@@ -543,13 +579,13 @@ class Broken(unittest.TestCase):
         mesh.to_mesh(self.obj.data)
         mesh.free()
         told = messages(bpy.ops.uv.atlas_refine_select_problems, kinds={"NON_MANIFOLD"})
-        self.assertIn("3 non-manifold faces", told)
+        self.assertIn("3 faces non-manifold", told)
         self.assertEqual(self.selected(), [0, 1, 2])
 
     def test_the_counts_are_told(self):
         self.change(lambda uvs: 0 * uvs + 0.5, range(84, 102))
         told = messages(bpy.ops.uv.atlas_refine_select_problems)
-        self.assertIn("Loose: 18 not unwrapped faces", told)
+        self.assertIn("Loose: 18 faces not unwrapped", told)
         bpy.ops.object.mode_set(mode="OBJECT")
         self.assertIn("no problems", messages(self.on_a_clean_mesh))
 
@@ -614,6 +650,29 @@ class LastResult(unittest.TestCase):
         share = texture_share(self.obj)
         self.assertNotEqual(round(100 * share), round(100 * free))
         self.assertIn(f"Loose: Texture use {100 * share:.0f} %", messages(bpy.ops.uv.atlas_refine_measure))
+
+    def test_measure_looks_at_what_would_stay_too(self):
+        for item in range(len(self.obj.data.loops)):
+            pin_a_corner(self.obj, item) if item == 0 else setattr(self.obj.data.uv_layers.active.data[item], "pin_uv", True)
+        self.assertIn("3 charts", messages(bpy.ops.uv.atlas_refine_measure))
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="DESELECT")
+        self.assertIn("3 charts", messages(bpy.ops.uv.atlas_refine_measure))
+
+    def test_measure_says_of_a_result_what_the_result_said(self):
+        """Of faces that are far from flat: how they are divided makes the difference."""
+        bpy.ops.mesh.primitive_monkey_add()
+        self.obj = bpy.context.object
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.uv.smart_project()
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.uv.atlas_refine()
+        after = self.shown()[0].result.after
+        bpy.ops.uv.atlas_refine_measure()
+        measures = self.shown()[0].measures
+        self.assertAlmostEqual(measures.stretch_max, after.stretch_max)
+        self.assertAlmostEqual(measures.distortion, after.distortion)
 
     def test_measure_shows_figures_and_changes_nothing(self):
         before = snapshot(self.obj)

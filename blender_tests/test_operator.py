@@ -1,11 +1,12 @@
 """bpy.ops.uv.atlas_refine() in the background: the bound is met on what Blender stores; failures leave the mesh alone."""
 
+import sys
 import unittest
 
 import bpy
 import numpy as np
 import shapes
-from support import add_mesh, changes, fresh_scene, get_uvs, packing_efficiency, set_uvs, snapshot
+from support import MODULE, add_mesh, changes, fresh_scene, get_uvs, packing_efficiency, set_uvs, snapshot, texture_share
 
 
 class Operator(unittest.TestCase):
@@ -158,11 +159,24 @@ class Operator(unittest.TestCase):
         self.assertNotEqual(after[16:].tobytes(), uvs[16:].tobytes())
         uvs[:] = np.nan
         set_uvs(obj.data.uv_layers.active, uvs)
-        self.assert_refused(obj, ["face 0"])
+        self.assert_refused(obj, ["no face has UVs: unwrap the mesh"])
+
+    def test_an_object_that_is_renamed_meanwhile(self):
+        obj = add_mesh()
+        before = snapshot(obj)
+        tasks, core = (sys.modules[f"{MODULE}.{name}"] for name in ("tasks", "core.options"))
+        run = tasks.Run(bpy.context, core.Options())
+        obj.name = "Renamed"
+        while not run.wait(1.0):
+            pass
+        (done,) = run.finish()
+        self.assertEqual((run.problems, [name for name, _, _ in done.prints]), ([], ["Renamed"]))
+        self.assertEqual(changes(before, snapshot(obj)), ["uvs of UVMap"])
+        self.assertGreaterEqual(texture_share(obj), 0.8)
 
     def test_a_bound_out_of_reach(self):
         options = {"pe_bound": 0.999, "gap": "PIXELS", "gap_px": 50, "texture_size": 1024}
-        self.assert_refused(add_mesh(), ["the gap to the border of the texture leaves 0.81"], **options)
+        self.assert_refused(add_mesh(), ["the margin to the border of the texture leaves 0.81"], **options)
         options["aspect"] = "FREE"
         self.assert_refused(add_mesh(), ["the best found is texture use"], **options)
         obj = add_mesh()

@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -118,3 +119,12 @@ class Reinstall(unittest.TestCase):
             self.assertEqual(error.name, MODULE)
             self.assertIn("engine does not load on Python 3.", str(error))
         self.assertEqual(bpy.ops.mesh.primitive_cube_add(), {"FINISHED"})
+
+
+@unittest.skipIf(LEGACY, "Blender knows extensions from 4.2 on")
+class Validation(unittest.TestCase):
+    def test_blenders_own_validation_passes(self):
+        """What `blender --command extension validate` runs, which the bpy module has no command line for."""
+        program = pathlib.Path(addon_utils.__file__).parents[1] / "addons_core" / "bl_pkg" / "cli" / "blender_ext.py"
+        done = subprocess.run([sys.executable, program, "validate", ARCHIVE], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

@@ -5,8 +5,20 @@ import numpy as np
 
 from .mesh import integers
 
+_NUMBERS = {"BOOLEAN", "INT", "INT8", "FLOAT"}
 #: A vertex of weight 1 counts as much more than one without.
 MOST_IMPORTANT = 10.0
+
+
+def names_of_faces(obj):
+    """Vertex groups and face attributes that Painted reads."""
+    return [*(group.name for group in obj.vertex_groups), *names_of_edges(obj, "FACE")]
+
+
+def names_of_edges(obj, domain="EDGE"):
+    """Edge attributes that Painted reads; not those that are Blender's own and have no place in its lists."""
+    shown = (one for one in obj.data.attributes if not one.name.startswith("."))
+    return [one.name for one in shown if one.domain == domain and one.data_type in _NUMBERS]
 
 
 class Painted:
@@ -44,7 +56,7 @@ class Painted:
     def _attribute(self, name, domain):
         """Its numbers, float64; None where the mesh has no such attribute of numbers."""
         attribute = self._mesh.attributes.get(name) if name else None
-        if attribute is None or attribute.domain != domain or attribute.data_type not in {"BOOLEAN", "INT", "INT8", "FLOAT"}:
+        if attribute is None or attribute.domain != domain or attribute.data_type not in _NUMBERS:
             return None
         return np.array([float(item.value) for item in attribute.data])
 

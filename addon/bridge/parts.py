@@ -41,6 +41,11 @@ def users_of(mesh):
     return sum(obj.data is mesh for obj in bpy.data.objects)
 
 
+def object_of_mesh(name):
+    """None where there is none."""
+    return next((obj for obj in bpy.data.objects if obj.type == "MESH" and obj.data.name == name), None)
+
+
 def read_part(context, obj, options, material_numbers):
     """In steps. `material_numbers`: a dict that is shared by the parts of an atlas, and grows."""
     uv_map = bridge.find_uv_map(obj.data, options.uv_map)
@@ -62,6 +67,7 @@ def read_part(context, obj, options, material_numbers):
             selected=np.ones(len(mesh.polygons), dtype=bool) if selected is None else selected,
             pinned=selection.pinned_faces(mesh, uv_map),
             materials=materials_of(obj, mesh, material_numbers),
+            mesh_name=obj.data.name,
             scale=scale_of(obj),
             keep_shape=painted.face_flags(options.keep_shape),
             importance=painted.importance(options.importance),
@@ -76,12 +82,12 @@ def scale_of(obj):
 
 
 def material_names(objs):
-    """By the numbers that materials_of() gives them."""
+    """By the numbers that materials_of() gives them: those that tell materials of several libraries apart."""
     return tuple(dict.fromkeys(name for obj in objs for name in _of_slots(obj)))
 
 
 def _of_slots(obj):
-    return [slot.material.name if slot.material else "" for slot in obj.material_slots] or [""]
+    return [slot.material.name_full if slot.material else "" for slot in obj.material_slots] or [""]
 
 
 def materials_of(obj, mesh, numbers):

@@ -23,7 +23,7 @@ def find_canvases(context, objs, materials, atlases):
 
 def texture_of_material(context, name):
     """Of its own image, else of what the UV editor shows."""
-    return _texture_of(_image_of_material(bpy.data.materials.get(name)) or _image_in_editor(context))
+    return _texture_of(_image_of_material(_material_named(name)) or _image_in_editor(context))
 
 
 def _canvas(context, texture, name=""):
@@ -49,9 +49,13 @@ def _image_in_editor(context):
 
 def of_another_shape(texture, material_names):
     """Names of the images that these materials read and whose shape is not the texture's."""
-    images = filter(None, (_image_of_material(bpy.data.materials.get(name)) for name in material_names))
+    images = filter(None, (_image_of_material(_material_named(name)) for name in material_names))
     shape = texture.width / texture.height
     return sorted({image.name for image in images if abs(image.size[0] / image.size[1] - shape) > 1e-3 * shape})
+
+
+def _material_named(full_name):
+    return next((material for material in bpy.data.materials if material.name_full == full_name), None)
 
 
 def _image_of_material(material):

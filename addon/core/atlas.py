@@ -14,6 +14,12 @@ class AtlasArrays:
     corner_vertices: np.ndarray  # (C,) int32
     corner_uvs: np.ndarray  # (C, 2) float32, as Blender stores them
 
+    @property
+    def has_uvs(self):
+        """Whether some face has UVs at all its corners."""
+        finite = np.isfinite(self.corner_uvs).all(axis=1)
+        return len(finite) > 0 and bool(np.logical_and.reduceat(finite, self.face_offsets[:-1]).any())
+
     def as_tuple(self):
         return self.positions, self.face_offsets, self.corner_vertices, self.corner_uvs
 

@@ -21,6 +21,7 @@ class Part:
     selected: np.ndarray
     pinned: np.ndarray
     materials: np.ndarray  # (F,) int: a number for each material, the same in all parts
+    mesh_name: str = ""
     scale: float = 1.0  # of the object in the world
     keep_shape: np.ndarray | None = None  # (F,) bool
     importance: np.ndarray | None = None  # (F,) float
@@ -86,13 +87,8 @@ class Joined:
     def triangles(self):
         out = []
         for (part, _, corners), first in self._with(self.first_corners):
-            if part.taken.all():
-                out.append(part.triangles + first)
-                continue
-            number = np.full(len(part.atlas.corner_vertices), -1)
-            number[corners] = first + np.arange(len(corners))
-            triangles = number[part.triangles].reshape(-1, 3)
-            out.append(triangles[np.all(triangles >= 0, axis=1)])
+            own = part.triangles if part.taken.all() else renumbered(part.triangles, corners, len(part.atlas.corner_vertices))
+            out.append(first + own)
         return np.concatenate(out)
 
     def edges(self, name):
@@ -145,3 +141,11 @@ def corners_of(face_offsets, faces):
     sizes = np.diff(face_offsets)[faces]
     first = np.cumsum(sizes) - sizes
     return np.repeat(face_offsets[:-1][faces] - first, sizes) + np.arange(sizes.sum())
+
+
+def renumbered(triangles, corners, corner_count):
+    """(T, 3) corners, of so many, as numbers among `corners`: those of triangles that have all three there."""
+    number = np.full(corner_count, -1)
+    number[corners] = np.arange(len(corners))
+    rows = number[triangles].reshape(-1, 3)
+    return rows[np.all(rows >= 0, axis=1)]

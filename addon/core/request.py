@@ -7,7 +7,7 @@ import numpy as np
 
 from .canvas import Canvas, beside_active_tiles, missing_tiles, places_of
 from .density import Density, pixels_per_metre, surface_areas, uv_areas
-from .joined import Joined, corners_of
+from .joined import Joined, corners_of, renumbered
 from .who import group_faces, groups_without_work, stay
 
 ONE_CANVAS = (Canvas(),)
@@ -41,17 +41,20 @@ class Request:
         return self.arguments.get("groups", np.zeros(self.face_count, dtype=np.int32))
 
     def boxes(self):
-        """(name, the four array arguments, the aspect) of each box by itself, moved to the first tile."""
+        """(name, the four array arguments, the triangles of its larger faces, the aspect) of each box by itself, moved to the first
+        tile."""
         positions, offsets, vertices, uvs = self.joined.arrays()
+        triangles = self.arguments["triangles"]
         if "groups" not in self.arguments:
-            yield "", (positions, offsets, vertices, uvs), self.box_aspects[0]
+            yield "", (positions, offsets, vertices, uvs), triangles, self.box_aspects[0]
             return
         named = zip(self.box_names, self.arguments["group_origins"], self.box_aspects, strict=True)
         for group, (name, origin, aspect) in enumerate(named):
             faces = np.flatnonzero(self._groups == group)
             corners = corners_of(offsets, faces)
             own_offsets = np.concatenate([[0], np.cumsum(np.diff(offsets)[faces])])
-            yield name, (positions, own_offsets, vertices[corners], uvs[corners] - origin), aspect
+            arrays = positions, own_offsets, vertices[corners], uvs[corners] - origin
+            yield name, arrays, renumbered(triangles, corners, len(uvs)), aspect
 
     def densities(self, options, metres, result=None):
         """The Density of each box as it is and as the result has it; `metres`: in a unit of Blender."""
@@ -102,19 +105,22 @@ class Request:
         return not all(part.taken.all() for part in self.joined.parts)
 
 
-def prepare(engine, parts, options, canvases=ONE_CANVAS, metres=1.0):
+def prepare(engine, parts, options, canvases=ONE_CANVAS, metres=1.0, moves=True):
     """`engine`: the atlas_refine module; `canvases`: of each material where each has a texture of its own, else the one of all;
-    `metres`: in a unit of Blender. Sets Part.taken.
+    `metres`: in a unit of Blender; `moves`: charts are to be moved; else it is no matter that all of them stay. Sets Part.taken.
 
     Raises NothingToDoError."""
+    if not any(part.atlas.has_uvs for part in parts):
+        raise NothingToDoError(_why_nothing(parts))
     locked = [_choose(engine, part, options) for part in parts]
-    _require_work(parts, locked, _why_nothing(parts))
+    staying = locked if moves else [np.zeros_like(flags) for flags in locked]
+    _require_work(parts, staying, _why_nothing(parts))
     places = places_of(engine, parts, options, canvases)
     if options.tiles == "ACTIVE":
         places = _leave_out(parts, places, beside_active_tiles(places, canvases))
-    _require_work(parts, locked, "no chart that may be moved lies in the active tile")
+    _require_work(parts, staying, "no chart that may be moved lies in the active tile")
     groups, first = group_faces(places.codes)
-    idle = groups_without_work(groups, Joined(parts).of_faces(locked))
+    idle = groups_without_work(groups, Joined(parts).of_faces(staying))
     if idle.any():
         places = _leave_out(parts, places, idle)
         groups, first = group_faces(places.codes)
@@ -156,6 +162,8 @@ def _without_locked(densities, groups, locked):
 def _why_nothing(parts):
     if not any(len(part.hidden) for part in parts):
         return "the mesh has no faces"
+    if not any(part.atlas.has_uvs for part in parts):
+        return "no face has UVs: unwrap the mesh"
     if all(part.hidden.all() for part in parts):
         return "all faces are hidden"
     if not any(np.any(part.selected & ~part.hidden) for part in parts):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A result in words, and its figures with the paper's symbols for those who want them."""
 
+from collections import Counter
+
 from .words import counted, plain
 
 #: E_d up to which distortion is called so.
@@ -27,7 +29,7 @@ def use(measures, is_free, reaches_beyond):
 
 def distortion(measures):
     value = measures.distortion
-    if value != value:
+    if value != value or not measures.chart_count:
         return "no chart takes part"
     word = "low" if value <= LOW else "moderate" if value <= MODERATE else "high"
     return f"distortion {word} (worst stretch {measures.stretch_max:.1f})"
@@ -111,9 +113,14 @@ def faces_after(result, face_count):
 
 def notes(result):
     """What an artist should know besides the figures, one line each."""
+    charts, faces = Counter(), Counter()
     for repair in result.repairs:
-        faces = f" ({counted(len(repair.faces), 'face')})" if len(repair.faces) else ""
-        yield f"{counted(len(repair.charts), 'chart')}: {repair.what}{faces}"
+        charts[repair.what] += len(repair.charts)
+        faces[repair.what] += len(repair.faces)
+    for what, count in charts.items():
+        of_faces = f" ({counted(faces[what], 'face')})" if faces[what] else ""
+        said = what if count == 1 else what.replace("itself", "themselves").replace("its shape", "their shapes")
+        yield f"{counted(count, 'chart')}: {said}{of_faces}"
     yield from (plain(text) for text in (*result.fallbacks, *result.warnings))
 
 

@@ -5,11 +5,19 @@ import re
 import textwrap
 
 #: Of the sidebar, at a scale of 1: its letters in the mean, what its margins and tabs take, an icon.
-_LETTER_PX, _MARGINS_PX, ICON_PX = 5.9, 48, 20
+_LETTER_PX, _MARGINS_PX, ICON_PX = 6.2, 48, 20
 _LEAST_LETTERS = 16
 _CHARTS = re.compile(r"\bcharts (\d+(?:, \d+)*)\b(?: and (\d+)\b)?")
 _CHART = re.compile(r"(?:\bface (\d+) of )?\bchart \d+\b")
-_SYMBOLS = {"packing efficiency": "texture use", "E_d": "distortion"}
+#: What the panel calls otherwise, and what is said otherwise to somebody who sees Blender's own triangles.
+_WORDS = {
+    "packing efficiency": "texture use",
+    "E_d": "distortion",
+    "the gap must lie in [0, 0.1] of the box": "the margin is more than a tenth of the texture",
+    "charts of several groups": "charts of several materials",
+}
+_GAP = re.compile(r"\bgap\b")
+_NOT_CONVEX = re.compile(r"(not convex in the UV map), valid only where divided as here; \d+ of them would be flipped as a fan")
 _GROWTH = re.compile(r"\ba boundary growth of ([0-9.e+-]*[0-9])")
 _OBJECT = re.compile(r"^object '.*?': ")
 
@@ -19,8 +27,10 @@ def plain(message):
     message = _OBJECT.sub("", message)
     message = _CHARTS.sub(lambda found: f"{found.group(1).count(',') + 1 + bool(found.group(2))} charts", message)
     message = _GROWTH.sub(lambda found: f"new seams of {100 * float(found.group(1)):.3g} % of the charts' borders", message)
-    for symbol, word in _SYMBOLS.items():
-        message = message.replace(symbol, word)
+    for said, word in _WORDS.items():
+        message = message.replace(said, word)
+    message = _GAP.sub("margin", message)
+    message = _NOT_CONVEX.sub(r"\1: a program that divides it otherwise than Blender may see it flipped", message)
     return _CHART.sub(lambda found: f"face {found.group(1)}" if found.group(1) else "1 chart", message)
 
 

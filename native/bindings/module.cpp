@@ -156,8 +156,9 @@ std::unique_ptr<Job> start(const py::object& positions, const py::object& face_o
 
 Measures call_measure(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
                       const py::object& corner_uvs, const py::kwargs& kwargs) {
-  const Keywords keywords = read_keywords(kwargs, "measure", "box_aspect in_texture name");
-  const Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  const Keywords keywords = read_keywords(kwargs, "measure", "box_aspect in_texture triangles name");
+  Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  atlas.triangles = keywords.triangles;
   const py::gil_scoped_release release;
   return measure(atlas, keywords.options.box_aspect, keywords.options.in_texture);
 }
@@ -185,8 +186,9 @@ py::array_t<std::int32_t> call_charts_of_faces(const py::object& positions, cons
 
 py::dict call_find_problems(const py::object& positions, const py::object& face_offsets, const py::object& corner_vertices,
                             const py::object& corner_uvs, const py::kwargs& kwargs) {
-  const Keywords keywords = read_keywords(kwargs, "find_problems", "name");
-  const Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  const Keywords keywords = read_keywords(kwargs, "find_problems", "triangles name");
+  Atlas atlas = to_atlas({positions, face_offsets, corner_vertices, corner_uvs}, keywords.name);
+  atlas.triangles = keywords.triangles;
   Problems problems;
   {
     const py::gil_scoped_release release;
@@ -253,7 +255,7 @@ PYBIND11_MODULE(_atlas_refine, module) {
   define(module, "start", &start, "refine() in the background: returns a Job at once." + arrays + kRefineOptionsDoc + raises);
   define(module, "measure", &call_measure,
          "Measures an atlas as it is.\n\nKeywords box_aspect (width / height of the texture that [0, 1]^2 stands for, 0 = free), "
-         "in_texture (pe_fixed_aspect is what charts cover of it) and name." +
+         "in_texture (pe_fixed_aspect is what charts cover of it), triangles (as of refine()) and name." +
              arrays + raises);
   define(module, "validate", &call_validate,
          "Exact test on the values as given: every UV triangle positive, no boundaries crossing or touching.\n\nKeyword name." +
@@ -266,7 +268,7 @@ PYBIND11_MODULE(_atlas_refine, module) {
       module, "find_problems", &call_find_problems,
       "Faces that somebody should look at, as a dict of ascending arrays: \"unwrapped\" (no UVs, or a chart that is a point or a "
       "line), \"zero_area\", \"flipped\" (against their chart), \"mirrored\" (of charts turned over as a whole) and "
-      "\"overlapping\" (with another face; exact).\n\nKeyword name." +
+      "\"overlapping\" (with another face; exact).\n\nKeywords triangles (as of refine()) and name." +
           arrays + raises);
   define(
       module, "group_by_tile", &call_group_by_tile,

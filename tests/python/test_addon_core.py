@@ -1,5 +1,7 @@
 """addon/core: what the add-on does without Blender."""
 
+from types import SimpleNamespace
+
 import atlas_refine
 import numpy as np
 import pytest
@@ -175,6 +177,12 @@ def test_a_bound_that_is_held_reads_so_and_one_that_is_missed_does_not():
         ("chart 7 has no area in the UV map", "1 chart has no area in the UV map"),
         ("charts 3, 5: mirrored, turned over", "2 charts: mirrored, turned over"),
         ("12 charts: mirrored", "12 charts: mirrored"),
+        ("the gap must lie in [0, 0.1] of the box", "the margin is more than a tenth of the texture"),
+        ("charts of several groups were parted along 2 edges", "charts of several materials were parted along 2 edges"),
+        (
+            "1 face is not convex in the UV map, valid only where divided as here; 0 of them would be flipped as a fan",
+            "1 face is not convex in the UV map: a program that divides it otherwise than Blender may see it flipped",
+        ),
         ("object 'Cube': face 7 of chart 0 is flipped", "face 7 is flipped"),
         ("the boundaries of charts 0 and 12 touch or cross near (0, 1)", "the boundaries of 2 charts touch or cross near (0, 1)"),
     ],
@@ -192,6 +200,14 @@ def test_what_was_mended_and_left_is_told_by_counts():
     assert "1 chart: mirrored, turned over" in told
     assert any(note.startswith("1 chart: has no area in the UV map") for note in told)
     assert not any("chart 0" in note or "chart 2" in note for note in told)
+
+
+def test_what_was_mended_in_the_same_way_is_told_once():
+    repairs = [
+        SimpleNamespace(what=what, charts=[k], faces=[1, 2]) for k, what in enumerate(("overlapped itself", "turned", "turned"))
+    ]
+    result = SimpleNamespace(repairs=[*repairs, repairs[0]], fallbacks=[], warnings=[])
+    assert list(notes(result)) == ["2 charts: overlapped themselves (4 faces)", "2 charts: turned (4 faces)"]
 
 
 def test_faces_at_edges_of_three_and_of_opposite_winding():

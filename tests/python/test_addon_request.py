@@ -205,3 +205,23 @@ def test_with_locked_charts_a_free_box_is_the_texture():
     part.pinned[50] = True
     arguments = prepare(atlas_refine, [part], FREE).arguments
     assert (arguments["box_aspect"], arguments["in_texture"]) == (1.0, True)
+
+
+def test_what_only_looks_asks_for_nothing_that_may_move():
+    part = make_part(pinned=np.ones(102, dtype=bool))
+    with pytest.raises(NothingToDoError, match="pinned"):
+        prepare(atlas_refine, [part], FREE)
+    assert prepare(atlas_refine, [part], FREE, moves=False).face_count == 102
+    part.atlas.corner_uvs[::4, 0] = np.nan  # one of each face
+    with pytest.raises(NothingToDoError, match="no face has UVs: unwrap the mesh"):
+        prepare(atlas_refine, [part], FREE, moves=False)
+
+
+def test_boxes_have_the_triangles_of_their_faces():
+    positions, offsets, corners, uvs = shapes.loose()
+    triangles = np.concatenate([offsets[:-1, None] + [0, 1, 3], offsets[:-1, None] + [1, 2, 3]])
+    part = make_part((positions, offsets, corners, uvs % 1 + np.repeat([0, 3], [4 * 48, 4 * 54])[:, None]), triangles=triangles)
+    boxes = list(prepare(atlas_refine, [part], Options(tiles="EACH"), moves=False).boxes())
+    assert len(boxes) > 1
+    for _, (_, own_offsets, _, _), own, _ in boxes:
+        assert np.array_equal(own, np.concatenate([own_offsets[:-1, None] + [0, 1, 3], own_offsets[:-1, None] + [1, 2, 3]]))

@@ -52,3 +52,15 @@ def test_a_valid_atlas_a_flipped_one_and_one_that_overlaps():
     assert not validity.valid
     assert validity.crossings > 0
     assert validity.problem
+
+
+def test_faces_are_divided_as_the_reader_does():
+    positions = np.array([[0, 0, 0], [1, 0, 0], [2, 2, 0], [0, 1, 0]], dtype=float)
+    uvs = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+    arrays = positions, [0, 4], [0, 1, 2, 3], uvs
+    diagonals = {"fan": [[0, 1, 2], [0, 2, 3]], "other": [[0, 1, 3], [1, 2, 3]]}
+    stretch = {name: atlas_refine.measure(*arrays, triangles=triangles).stretch_max for name, triangles in diagonals.items()}
+    assert stretch["fan"] == atlas_refine.measure(*arrays).stretch_max
+    assert stretch["other"] != pytest.approx(stretch["fan"], rel=0.05)
+    refined = atlas_refine.refine(*arrays, pe_bound=0.5, triangles=diagonals["other"])
+    assert stretch["other"] == pytest.approx(refined.before.stretch_max)

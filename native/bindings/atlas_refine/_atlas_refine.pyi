@@ -434,6 +434,7 @@ def measure(
     *,
     box_aspect: float = 0.0,
     in_texture: bool = False,
+    triangles: ArrayLike | None = None,
     name: str = "",
 ) -> Measures: ...
 def validate(
@@ -459,6 +460,7 @@ def find_problems(
     corner_vertices: ArrayLike,
     corner_uvs: ArrayLike,
     *,
+    triangles: ArrayLike | None = None,
     name: str = "",
 ) -> dict[Literal["unwrapped", "zero_area", "flipped", "mirrored", "overlapping"], NDArray[np.int32]]: ...
 def group_by_tile(
