@@ -152,6 +152,7 @@ class Frontier {
   Frontier(const CutTrials& trials, const Wish& wish) : trials_(trials), wish_(wish) {}
 
   void aim_at(double limit) { limit_ = limit; }
+  double aim() const { return 1 + std::exp(limit_); }
 
   bool empty() const { return open_.empty(); }
   bool is_near(const Trial& trial) const { return likely_excess(trial) <= limit_ + kNear; }
@@ -304,6 +305,7 @@ class LimitSearch {
 
   bool keeps_limit() { return wish_.is_enough(found_.best(wish_).trial); }
   bool is_better(const Trial& a, const Trial& b) const { return frontier_.likely_excess(a) < frontier_.likely_excess(b); }
+  ForecastTerms terms() const { return {most_growth_, frontier_.bias(), frontier_.aim()}; }
   bool may_forecast() { return found_.tried < (keeps_limit() ? budget_.improving : budget_.forecasts); }
 
   /// The most promising are forecast side by side.
@@ -317,7 +319,7 @@ class LimitSearch {
     }
     std::vector<std::vector<CutPlace>> sets;
     for (const Prospect& prospect : first) sets.push_back(prospect.trial.cuts);
-    const auto trials = trials_.forecasts(sets, &whole, frontier_.bias(), most_growth_, step());
+    const auto trials = trials_.forecasts(sets, &whole, terms(), step());
     for (std::size_t k = 0; k < first.size(); ++k) {
       ++found_.tried;
       if (!trials[k]) continue;
@@ -332,7 +334,7 @@ class LimitSearch {
   }
 
   void forecast(Prospect prospect) {
-    auto trial = trials_.forecasts({prospect.trial.cuts}, prospect.present, frontier_.bias(), most_growth_, step()).front();
+    auto trial = trials_.forecasts({prospect.trial.cuts}, prospect.present, terms(), step()).front();
     if (!trial) return;
     ++found_.tried;
     prospect.trial = std::move(*trial);
