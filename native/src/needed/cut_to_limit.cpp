@@ -43,11 +43,32 @@ struct Budget {
 Budget budget_of(Effort effort) {
   switch (effort) {
     case Effort::Fast:
-      return {.first_places = 20, .places = 8, .tips = 2, .first = 3, .improving = 8, .forecasts = 20, .surprises = 1, .squeezes = 10};
+      return {.first_places = 20,
+              .places = 8,
+              .tips = 2,
+              .first = 3,
+              .improving = 8,
+              .forecasts = 20,
+              .surprises = 1,
+              .squeezes = 10};
     case Effort::Normal:
-      return {.first_places = 30, .places = 14, .tips = 4, .first = 4, .improving = 18, .forecasts = 32, .surprises = 3, .squeezes = 16};
+      return {.first_places = 30,
+              .places = 14,
+              .tips = 4,
+              .first = 4,
+              .improving = 18,
+              .forecasts = 32,
+              .surprises = 3,
+              .squeezes = 16};
     case Effort::Best:
-      return {.first_places = 60, .places = 40, .tips = 8, .first = 8, .improving = 100, .forecasts = 160, .surprises = 30, .squeezes = 60};
+      return {.first_places = 60,
+              .places = 40,
+              .tips = 8,
+              .first = 8,
+              .improving = 100,
+              .forecasts = 160,
+              .surprises = 30,
+              .squeezes = 60};
   }
   return {};
 }

@@ -123,8 +123,8 @@ Forecast forecast_of(const std::vector<Chart>& charts, const std::optional<Coars
   return out;
 }
 
-/// What a forecast may take: cuts that leave charts jammed for longer are not those that pay. A fast climb ends at nearly the same
-/// objective.
+/// What a forecast may take: cuts that leave charts jammed for longer are not those that pay. A fast climb ends at nearly the
+/// same objective.
 SqueezeOptions briefly(SqueezeOptions options) {
   constexpr int kForecastIterations = 150;
   constexpr double kFastClimb = 2;
