@@ -23,11 +23,11 @@ constexpr int kFinalists = 4;
 constexpr std::int64_t kShrinkingWork = 20'000'000, kFairWork = 3'000'000;
 constexpr int kBatch = 32, kRoughBatch = 8;  // greedy starts between two looks at the target
 constexpr int kFew = 3;                      // charts: greedy placements are as good as any
-constexpr int kRoughStarts = 17;             // of rough and fair searches, with that one which tells what they cost
+constexpr int kRoughStarts = 33;             // of rough and fair searches, with that one which tells what they cost
 /// Work of all greedy starts in words looked at: more than atlases of any number of charts need, half a second of tall strips.
 constexpr std::int64_t kGreedyWork = budget(200'000'000);
 /// Cells along the side for sixty charts. More charts need a finer grid, or most of it is what rounding adds to each.
-constexpr double kCells = 256, kCellsOfMany = 512, kCellsOfTooMany = 768, kRoughCells = 64;
+constexpr double kCells = 256, kCellsOfMany = 512, kCellsOfTooMany = 768, kRoughCells = 96;
 constexpr double kMostCells = 8192;  ///< bounds the memory
 /// Cells are so large that no chart is longer than this many sides of the grid: a needle's length is no measure of the area.
 constexpr double kLongestChart = 16;
