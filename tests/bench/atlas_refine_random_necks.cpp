@@ -30,7 +30,7 @@ std::optional<Trial> with_another(const CutTrials& trials, const Trial& present,
     std::vector<CutPlace> cuts = present.cuts;
     cuts.push_back(places[k - 1]);
     if (present.growth + trials.growth_of(cuts.back()) > growth) continue;
-    auto made = trials.forecasts({cuts}, nullptr, {}, growth, ProgressRange(0, 1)).front();
+    auto made = trials.forecasts({cuts}, nullptr, {growth}, ProgressRange(0, 1)).front();
     if (made) return made;
   }
   return std::nullopt;

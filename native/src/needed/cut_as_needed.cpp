@@ -74,7 +74,7 @@ SqueezedTrial& symmetric(const CutTrials& trials, const Wish& wish, SqueezedTria
   const double most = std::min(wish.options.max_boundary_growth.value_or(kAnyGrowth), kAsGood * best.trial.growth);
   const auto sets = trials.symmetric_sets(best.trial.cuts);
   if (sets.empty()) return best;
-  for (const auto& trial : trials.forecasts(sets, &found.squeezed.front(), {}, most, range.part(0, 0.3))) {
+  for (const auto& trial : trials.forecasts(sets, &found.squeezed.front(), {most}, range.part(0, 0.3))) {
     if (!trial) continue;
     ++found.tried;
     auto squeezed = trials.squeezed(*trial, range.part(0.3, 1));
@@ -172,7 +172,7 @@ class Search {
   /// Forecasts what one more cut comes to, and what one cut less does.
   void expand(const SqueezedTrial& present) {
     ++expansions_;
-    for (auto& trial : trials_.forecasts(neighbours(present.trial), &present, {}, most_growth(), step())) {
+    for (auto& trial : trials_.forecasts(neighbours(present.trial), &present, {most_growth()}, step())) {
       if (!trial) continue;
       ++found_.tried;
       const double gain = loss(present.trial) - loss(*trial);

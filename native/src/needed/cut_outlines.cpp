@@ -12,7 +12,7 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kSpacing = 0.01;  // of the root of all area: of vertices nearer to each other one is enough
+constexpr double kSpacing = 0.02;  // of the root of all area: of vertices nearer to each other one is enough
 constexpr double kLikelyPe = 0.6;  // what the gap is guessed by
 // E_d that charts lose for what the box of the unbent charts is larger than the bound asks, as a fraction: a first guess, of
 // which forecasts tell more.

@@ -22,7 +22,7 @@ constexpr double kLikelyShare = 0.15;   // of the distortion near a cut that rel
 constexpr double kMostShare = 0.9;      // of all distortion that one cut may release
 constexpr double kPriorStrain = 0.005;  // of E_d, that outlines tell; what they have told counts more from then on
 constexpr double kPriorNear = 0.2;      // the same of distortion near cuts, as a part of all
-constexpr double kRemoved = 0.5;        // of what a cut saved when it was added is lost without it
+constexpr double kRemoved = 0.2;        // of what a cut saved when it was added is lost without it, where that pays
 constexpr double kLeastGain = 0.01;     // of the logarithm of E_d - 1
 constexpr double kMuchLess = 0.7;       // of the boundary
 constexpr double kRoughly = 1.25;       // times the boundary that is told before a cut is made
@@ -35,18 +35,40 @@ struct Budget {
   int places, tips;  ///< the same from a set of cuts, and cuts to points of high curvature
   int first;         ///< forecast at once
   int improving;     ///< forecasts in all, once the limit is kept
-  int forecasts;     ///< before
+  int forecasts;     ///< before, and of sets with one cut less
+  int surprises;     ///< of them such as promise nothing
   int squeezes;
 };
 
 Budget budget_of(Effort effort) {
   switch (effort) {
     case Effort::Fast:
-      return {.first_places = 20, .places = 8, .tips = 2, .first = 3, .improving = 8, .forecasts = 20, .squeezes = 10};
+      return {.first_places = 20,
+              .places = 8,
+              .tips = 2,
+              .first = 3,
+              .improving = 8,
+              .forecasts = 20,
+              .surprises = 1,
+              .squeezes = 10};
     case Effort::Normal:
-      return {.first_places = 30, .places = 14, .tips = 4, .first = 4, .improving = 18, .forecasts = 32, .squeezes = 16};
+      return {.first_places = 30,
+              .places = 14,
+              .tips = 4,
+              .first = 4,
+              .improving = 18,
+              .forecasts = 32,
+              .surprises = 3,
+              .squeezes = 16};
     case Effort::Best:
-      return {.first_places = 60, .places = 40, .tips = 8, .first = 8, .improving = 100, .forecasts = 160, .squeezes = 60};
+      return {.first_places = 60,
+              .places = 40,
+              .tips = 8,
+              .first = 8,
+              .improving = 100,
+              .forecasts = 160,
+              .surprises = 30,
+              .squeezes = 60};
   }
   return {};
 }
@@ -152,6 +174,7 @@ class Frontier {
   Frontier(const CutTrials& trials, const Wish& wish) : trials_(trials), wish_(wish) {}
 
   void aim_at(double limit) { limit_ = limit; }
+  double aim() const { return 1 + std::exp(limit_); }
 
   bool empty() const { return open_.empty(); }
   bool is_near(const Trial& trial) const { return likely_excess(trial) <= limit_ + kNear; }
@@ -161,11 +184,11 @@ class Frontier {
   double likely_excess(const Trial& trial) const { return steering_excess(wish_, bias_, limit_, trial); }
 
   /// The cut that saves most for its length beside those that there are; where none of these is left, back to what promises to
-  /// keep the limit with the least boundary. Where none promises to do so with less than `enough`, what may surprise.
+  /// keep the limit with the least boundary. Nothing where none promises to do so with less than `enough`.
   std::optional<Prospect> next(double enough) {
     const auto hopeful =
         std::stable_partition(open_.begin(), open_.end(), [&](const Prospect& p) { return promise(p) < enough; });
-    if (hopeful == open_.begin()) return surprising(enough);
+    if (hopeful == open_.begin()) return std::nullopt;
     const auto last =
         std::stable_partition(open_.begin(), hopeful, [&](const Prospect& p) { return p.expansion == expansions_; });
     return taken_from(
@@ -173,6 +196,16 @@ class Frontier {
         last == open_.begin()
             ? std::min_element(last, hopeful, [&](const auto& a, const auto& b) { return promise(a) < promise(b); })
             : std::max_element(open_.begin(), last, [&](const auto& a, const auto& b) { return rate_of(a) < rate_of(b); }));
+  }
+
+  /// What is foreseen is rough: what needs much less boundary may do more than that.
+  std::optional<Prospect> surprising(double enough) {
+    const auto may = std::stable_partition(open_.begin(), open_.end(), [&](const Prospect& p) {
+      return !p.is_forecast && p.gain >= 0 && p.trial.growth < kMuchLess * enough;
+    });
+    if (may == open_.begin()) return std::nullopt;
+    return taken_from(
+        open_, std::max_element(open_.begin(), may, [&](const auto& a, const auto& b) { return rate_of(a) < rate_of(b); }));
   }
 
   /// One cut more, at each of these places and of those that have saved something before.
@@ -230,16 +263,6 @@ class Frontier {
     return gain / (prospect.growth() + kShortest);
   }
 
-  /// What is foreseen is rough: what needs much less boundary may do more than that.
-  std::optional<Prospect> surprising(double enough) {
-    const auto may = std::stable_partition(open_.begin(), open_.end(), [&](const Prospect& p) {
-      return !p.is_forecast && p.gain >= 0 && p.trial.growth < kMuchLess * enough;
-    });
-    if (may == open_.begin()) return std::nullopt;
-    return taken_from(
-        open_, std::max_element(open_.begin(), may, [&](const auto& a, const auto& b) { return rate_of(a) < rate_of(b); }));
-  }
-
   /// The growth with which a set will keep the limit: further cuts save half as much for their length as the best so far, and are
   /// no shorter than the shortest.
   double promise(const Prospect& prospect) const {
@@ -284,11 +307,11 @@ class LimitSearch {
     frontier_.aim_at(wish_.aim(whole.trial));
     start_from(whole);
     while (!trials_.finishing() && static_cast<int>(found_.squeezed.size()) <= budget_.squeezes) {
-      auto next = frontier_.next(keeps_limit() ? found_.best(wish_).trial.growth : std::numeric_limits<double>::infinity());
+      auto next = this->next();
       if (!next) break;
       if (next->is_forecast) {
         look_at(*next);
-      } else if (may_forecast()) {
+      } else if (may_forecast() || (next->gain < 0 && found_.tried < budget_.forecasts)) {
         forecast(std::move(*next));
       }
     }
@@ -302,8 +325,15 @@ class LimitSearch {
     return out;
   }
 
+  std::optional<Prospect> next() {
+    const double enough = keeps_limit() ? found_.best(wish_).trial.growth : std::numeric_limits<double>::infinity();
+    auto out = frontier_.next(enough);
+    return out || surprises_++ >= budget_.surprises ? std::move(out) : frontier_.surprising(enough);
+  }
+
   bool keeps_limit() { return wish_.is_enough(found_.best(wish_).trial); }
   bool is_better(const Trial& a, const Trial& b) const { return frontier_.likely_excess(a) < frontier_.likely_excess(b); }
+  ForecastTerms terms() const { return {most_growth_, frontier_.bias(), frontier_.aim()}; }
   bool may_forecast() { return found_.tried < (keeps_limit() ? budget_.improving : budget_.forecasts); }
 
   /// The most promising are forecast side by side.
@@ -317,7 +347,7 @@ class LimitSearch {
     }
     std::vector<std::vector<CutPlace>> sets;
     for (const Prospect& prospect : first) sets.push_back(prospect.trial.cuts);
-    const auto trials = trials_.forecasts(sets, &whole, frontier_.bias(), most_growth_, step());
+    const auto trials = trials_.forecasts(sets, &whole, terms(), step());
     for (std::size_t k = 0; k < first.size(); ++k) {
       ++found_.tried;
       if (!trials[k]) continue;
@@ -332,7 +362,7 @@ class LimitSearch {
   }
 
   void forecast(Prospect prospect) {
-    auto trial = trials_.forecasts({prospect.trial.cuts}, prospect.present, frontier_.bias(), most_growth_, step()).front();
+    auto trial = trials_.forecasts({prospect.trial.cuts}, prospect.present, terms(), step()).front();
     if (!trial) return;
     ++found_.tried;
     prospect.trial = std::move(*trial);
@@ -371,6 +401,7 @@ class LimitSearch {
   ProgressRange rest_;
   Outcomes& found_;
   Frontier frontier_;
+  int surprises_ = 0;
   std::optional<Trial> best_passed_;  // of those that others were found from but that were not squeezed
 };
 

@@ -209,20 +209,22 @@ std::optional<SqueezedTrial> CutTrials::rectangles(const ProgressRange& range) c
   return out;
 }
 
-std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, const SqueezedTrial* present, const Bias& bias,
-                                         double most_growth) const {
+std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, const SqueezedTrial* present,
+                                         const ForecastTerms& terms) const {
   const auto charts = made(cuts);
   if (!charts || leaves_slivers(*charts)) return std::nullopt;
   Trial out{.cuts = cuts, .growth = growth_of(*charts)};
-  if (out.growth > most_growth) return std::nullopt;
+  if (out.growth > terms.most_growth) return std::nullopt;
   const auto atlas = atlas_of(*charts);
   if (!atlas) return std::nullopt;
   const Refinement run{run_.input, run_.options, run_.monitor, run_.journal, 1, run_.asked};  // they run side by side
   // A chart alone that is cut is best placed anew; of many charts the layout is worth more than what another would gain.
   const auto laid =
       present && (charts->size() > 1 || !present->trial.cuts.empty()) ? in_place(*charts, *atlas, *present) : std::nullopt;
-  auto left = laid ? forecast_in_place(run, *laid, present->solution) : std::nullopt;
-  auto moved = !left || charts->size() <= kFewCharts ? forecast_anew(run, *atlas) : std::nullopt;
+  const Bias& bias = terms.bias;
+  const auto aim = [&](double biased) { return terms.aim > 0 ? terms.aim - offset_ - biased : 0; };  // of the objective
+  auto left = laid ? forecast_in_place(run, *laid, present->solution, aim(bias.in_place)) : std::nullopt;
+  auto moved = !left || charts->size() <= kFewCharts ? forecast_anew(run, *atlas, aim(bias.anew)) : std::nullopt;
   if (!left && !moved) return std::nullopt;
   const bool stays = left && (!moved || left->end.outcome.energy + bias.in_place <= moved->end.outcome.energy + bias.anew);
   if (stays) out.in_place_of = present;
@@ -234,14 +236,14 @@ std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, cons
 }
 
 std::vector<std::optional<Trial>> CutTrials::forecasts(const std::vector<std::vector<CutPlace>>& sets,
-                                                       const SqueezedTrial* present, const Bias& bias, double most_growth,
+                                                       const SqueezedTrial* present, const ForecastTerms& terms,
                                                        const ProgressRange& range) const {
   run_.journal.begin_stage("layout", range);
   std::vector<std::optional<Trial>> out(sets.size());
   parallel_ranges(static_cast<int>(sets.size()), run_.threads, 1, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const bool is_more = present && sets[k].size() > present->trial.cuts.size();
-      out[k] = forecast(sets[k], is_more ? present : nullptr, bias, most_growth);
+      out[k] = forecast(sets[k], is_more ? present : nullptr, terms);
     }
   });
   return out;

@@ -54,6 +54,13 @@ struct Bias {
   void learn(const SqueezedTrial& squeezed);
 };
 
+/// What is asked of forecasts.
+struct ForecastTerms {
+  double most_growth;  ///< as Trial::growth
+  Bias bias = {};      ///< with it they foresee what they will end with
+  double aim = 0;      ///< E_d to come to: what ends far above it may be told roughly; 0 where there is none
+};
+
 /// One more cut, as far as that is told before anything is bent.
 struct Preview {
   double growth;                 ///< of the boundary by this cut alone; infinite where it cannot be made
@@ -93,11 +100,10 @@ class CutTrials {
   /// Charts cut into rectangles; nothing where they cannot be.
   std::optional<SqueezedTrial> rectangles(const ProgressRange& range) const;
 
-  /// What sets of cuts come to: a trial for each that can be made, leaves no slivers, adds at most `most_growth` and holds the
-  /// bound. Sets of one cut more than `present` may also be left in its layout; it must outlive them. With `bias` they foresee
-  /// what they will end with.
+  /// What sets of cuts come to: a trial for each that can be made, leaves no slivers, adds at most `terms.most_growth` and holds
+  /// the bound. Sets of one cut more than `present` may also be left in its layout; it must outlive them.
   std::vector<std::optional<Trial>> forecasts(const std::vector<std::vector<CutPlace>>& sets, const SqueezedTrial* present,
-                                              const Bias& bias, double most_growth, const ProgressRange& range) const;
+                                              const ForecastTerms& terms, const ProgressRange& range) const;
 
   /// Where one more cut may pay; at most so many across charts, and to points of high curvature.
   std::vector<CutPlace> places(const Trial& present, int straight, int tips) const;
@@ -113,8 +119,8 @@ class CutTrials {
  private:
   std::optional<std::vector<ChartCuts>> made(const std::vector<CutPlace>& cuts) const;
   std::optional<CutAtlas> atlas_of(const std::vector<ChartCuts>& charts) const;
-  std::optional<Trial> forecast(const std::vector<CutPlace>& cuts, const SqueezedTrial* present, const Bias& bias,
-                                double most_growth) const;
+  std::optional<Trial> forecast(const std::vector<CutPlace>& cuts, const SqueezedTrial* present,
+                                const ForecastTerms& terms) const;
   std::optional<CutAtlas> in_place(const std::vector<ChartCuts>& charts, const CutAtlas& atlas,
                                    const SqueezedTrial& present) const;
   bool is_as_it_came(int chart) const;

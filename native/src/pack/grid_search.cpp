@@ -20,10 +20,10 @@ namespace {
 constexpr int kTooManyToCompact = 500;
 constexpr int kFinalists = 4;
 /// Work of making the box of one of them smaller, about 0.15 s, and that of a fair search's only one.
-constexpr std::int64_t kShrinkingWork = 20'000'000, kFairWork = 10'000'000;
+constexpr std::int64_t kShrinkingWork = 20'000'000, kFairWork = 3'000'000;
 constexpr int kBatch = 32, kRoughBatch = 8;  // greedy starts between two looks at the target
 constexpr int kFew = 3;                      // charts: greedy placements are as good as any
-constexpr int kRoughStarts = 65;             // of rough and fair searches, with that one which tells what they cost
+constexpr int kRoughStarts = 33;             // of rough and fair searches, with that one which tells what they cost
 /// Work of all greedy starts in words looked at: more than atlases of any number of charts need, half a second of tall strips.
 constexpr std::int64_t kGreedyWork = budget(200'000'000);
 /// Cells along the side for sixty charts. More charts need a finer grid, or most of it is what rounding adds to each.

@@ -108,7 +108,7 @@ void assemble(ReduceModel& model, const ReduceState& state, double stiffness, Tr
 double price_of_gain(const Task& task, const Iterate& at, const Schedule& schedule, double own_gain, double gain_per_price) {
   const double deficit = task.deficit(at, schedule.margin);
   // Too distorted: hold the PE and relax before climbing on.
-  const double climb = task.within_limit(at) ? largest_climb(deficit) : 0;
+  const double climb = task.within_limit(at) ? task.problem.climb * largest_climb(deficit) : 0;
   double price = std::max(0.0, (std::min(deficit, climb) - own_gain) / gain_per_price);
   if (!schedule.relaxing) return price;
   const double fall = largest_fall(at.energy, task.problem.enough_distortion);
@@ -213,13 +213,20 @@ void count_unrewarded(const Task& task, const Iterate& at, const Schedule& sched
   if (rewarded) counters.rewarded_at = at.energy;
 }
 
+/// Less is not waited for.
+double least_change(const ReduceProblem& problem, double energy) {
+  constexpr double kOfTheWay = 0.05;  // that is left to the aim
+  const double left = problem.aim > 0 ? std::max(0.0, energy - problem.aim) : 0;
+  return problem.least_change * (energy - 1) + problem.negligible + kOfTheWay * left;
+}
+
 Counters counted(const Task& task, const Change& change, const Iterate& at, const Schedule& schedule, Counters counters) {
   const ReduceProblem& problem = task.problem;
   const double deficit = task.deficit(at, schedule.margin);
   const bool on_target = !task.bounded() || std::abs(deficit) < 1e-4 || (task.holds_bound(at) && at.price == 0);
   // What PE gained or lost has its price.
   const double moved = std::abs(change.energy - (at.pe > 0 ? at.price * change.pe / at.pe : 0));
-  const bool quiet = moved < problem.least_change * (at.energy - 1) + problem.negligible && at.fraction > 0.1;
+  const bool quiet = moved < least_change(problem, at.energy) && at.fraction > 0.1;
   const bool calm =
       on_target && quiet && schedule.damping <= kTelling && settled(schedule, task.view(at, schedule.margin), at.price);
   counters.calm = calm ? counters.calm + 1 : 0;
