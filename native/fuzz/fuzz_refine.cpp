@@ -101,11 +101,31 @@ void check_validity(const Atlas& atlas, const RefineOptions& options, const Refi
   }
 }
 
+/// Charts that were refined lie within the texture, at the corner of its tile.
+void check_texture(const Atlas& atlas, const RefineOptions& options, const RefineResult& result) {
+  if (!options.in_texture || !result.bound_met) return;
+  const std::vector<int> groups = atlas_of_faces(atlas, options, result);
+  const Atlas output = testing::output(atlas, result);
+  for (int f = 0; f < output.face_count(); ++f) {
+    const int group = groups[result.cut ? result.cut->face_sources[f] : f];
+    if (group < 0) continue;
+    const bool has_tile = group < static_cast<int>(options.group_origins.size());
+    const Vec2 corner = has_tile ? options.group_origins[group] : Vec2(0, 0);
+    for (int c = output.face_offsets[f]; c < output.face_offsets[f + 1]; ++c) {
+      const Vec2 uv = output.corner_uvs[c] - corner;
+      require(uv.minCoeff() >= 0 && uv.maxCoeff() <= 1, "face " + std::to_string(f) + " lies beside the texture");
+    }
+  }
+}
+
 void check(const Atlas& atlas, const RefineOptions& options, const RefineResult& result) {
   check_validity(atlas, options, result);
   require(result.bound_met || options.best_effort || says_why(result), "the bound was missed without a word");
   const bool any_in = std::any_of(result.charts.begin(), result.charts.end(), takes_part);
-  require(!any_in || !result.bound_met || result.after.pe_fixed_aspect >= options.pe_bound, "the bound does not hold");
+  const bool is_sized = options.in_texture && options.uv_density > 0;  // charts take what that asks, no more
+  require(!any_in || !result.bound_met || is_sized || result.after.pe_fixed_aspect >= options.pe_bound,
+          "the bound does not hold");
+  check_texture(atlas, options, result);
 }
 
 /// Processor time, which other programs do not lengthen. A packing that cannot be had takes up to three seconds of a release

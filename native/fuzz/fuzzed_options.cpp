@@ -53,6 +53,17 @@ void choose_cuts(FuzzedDataProvider& data, RefineOptions& options) {
   rectangles.until_input = data.ConsumeBool();
 }
 
+/// What the Blender add-on asks for: a texture, a size in it, tiles.
+void choose_textures(FuzzedDataProvider& data, RefineOptions& options) {
+  options.in_texture = data.ConsumeBool();
+  if (data.ConsumeIntegralInRange(0, 3) == 0) options.uv_density = data.PickValueInArray({1e-6, 0.05, 0.5, 100.0});
+  if (options.groups.empty()) return;
+  if (data.ConsumeBool()) options.group_origins = {Vec2(0, 0), Vec2(1, 0), Vec2(9, 98)};
+  if (data.ConsumeIntegralInRange(0, 3) == 0) options.group_aspects = {1.0, 0.5};
+  if (options.gap && data.ConsumeIntegralInRange(0, 3) == 0) options.group_gaps = {0.0, 0.01};
+  if (options.uv_density > 0 && data.ConsumeBool()) options.group_densities = {0.1, 0.0};
+}
+
 }  // namespace
 
 RefineOptions fuzzed_options(FuzzedDataProvider& data, const Atlas& atlas) {
@@ -74,6 +85,7 @@ RefineOptions fuzzed_options(FuzzedDataProvider& data, const Atlas& atlas) {
   options.align_axes = data.ConsumeBool();
   choose_cuts(data, options);
   choose_faces(data, atlas, options);
+  choose_textures(data, options);
   return options;
 }
 
@@ -110,7 +122,13 @@ std::string words(const RefineOptions& options) {
     out << ' ' << name;
     for (const auto& value : values) out << ' ' << static_cast<double>(value);
   };
+  flag(options.in_texture, "(in the texture)");
+  if (options.uv_density > 0) out << " (UV density " << options.uv_density << ')';
   list("(groups)", options.groups);
+  for (const Vec2& corner : options.group_origins) out << " (tile " << corner.x() << ' ' << corner.y() << ')';
+  list("(aspects of groups)", options.group_aspects);
+  list("(gaps of groups)", options.group_gaps);
+  list("(densities of groups)", options.group_densities);
   list("(keep shape)", options.keep_shape);
   list("(locked)", options.locked);
   list("(importance)", options.importance);
