@@ -13,9 +13,9 @@ namespace atlas_refine {
 std::vector<PointEdge> near_pairs(const Boundary& boundary, const std::vector<Vec2>& positions,
                                   const std::vector<Vec2>& displacements, double radius);
 
-/// The same for a boundary that moves step by step: pairs are looked for in space farther out than asked, and later ones chosen from
-/// these as long as no point leaves what it swept then by more than the rest of that reach. So a search along a step serves for a
-/// part of it and for where it ends, too.
+/// The same for a boundary that moves step by step: pairs are looked for in space farther out than asked, and later ones chosen
+/// from these as long as no point leaves what it swept then by more than the rest of that reach. So a search along a step serves
+/// for a part of it and for where it ends, too.
 class NearPairs {
  public:
   std::vector<PointEdge> find(const Boundary& boundary, const std::vector<Vec2>& positions,
