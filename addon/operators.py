@@ -164,6 +164,8 @@ class UV_OT_atlas_refine_trade_off(Runs, bpy.types.Operator):
         found = run.finish()
         for name, text in run.problems:
             self.report_problem(name, text)
+        for note in run.told:
+            self.report({"WARNING"}, titled(run.atlases[0].title, note))
         for seams, distortion, cuts in found:
             self.report({"INFO"}, f"{run.atlases[0].title}: new seams {seams} ({cuts}), distortion {distortion}")
         drawing.redraw_panels(bpy.context)

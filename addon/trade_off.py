@@ -8,7 +8,7 @@ import bpy
 from . import drawing, tasks
 from .changes import Watch, no_longer, once_drawn
 from .core.options import Options
-from .core.summary import trade_off_lines
+from .core.summary import notes, trade_off_lines
 
 #: The Choice that the panel shows, None where there is none.
 shown = None
@@ -37,6 +37,7 @@ class Search(tasks.Run):
     """Finds what there is to choose from and writes nothing."""
 
     writes = False
+    told = ()  # of the input: what is mended in every outcome, whose seams are none of the cuts that the lines count
 
     def __init__(self, context, options, beside_window):
         super().__init__(context, options, SEARCH, beside_window)
@@ -60,6 +61,7 @@ class Search(tasks.Run):
         if not result.cuts:
             self.problems.append((atlas.title, "the map holds what is asked as it is, and there is nothing to choose"))
             return
+        self.told = tuple(notes(result))
         prints = yield atlas.prints
         self._written = tuple(trade_off_lines(result.cuts.trade_off))
         shown = Choice(atlas.options, self._written, prints)

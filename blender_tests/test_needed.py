@@ -8,6 +8,7 @@ import numpy as np
 import shapes
 from support import MODULE, add_mesh, changes, fresh_scene, messages, snapshot, texture_share
 from test_rectangles import torn_edges
+from test_suzanne import add_suzanne
 
 LIMIT = 1.03  # whole, at 0.8 of the square, the sheet has about 1.1
 
@@ -139,6 +140,10 @@ class TradeOff(unittest.TestCase):
         lines = self.module.shown.lines
         self.assertEqual(sorted((line[1] for line in lines), reverse=True), [line[1] for line in lines])
         self.assertGreater(len(lines), 2)
+
+    def test_it_tells_of_what_is_mended_in_every_line(self):
+        add_suzanne(0, "cube projection")
+        self.assertIn("folded onto each other along 1 edge, parted", messages(bpy.ops.uv.atlas_refine_trade_off))
 
     def test_a_line_is_what_the_map_becomes_and_undo_allows_another(self):
         add_c()
