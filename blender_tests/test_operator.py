@@ -1,6 +1,7 @@
 """bpy.ops.uv.atlas_refine() in the background: the bound is met on what Blender stores; failures leave the mesh alone."""
 
 import sys
+import time
 import unittest
 
 import bpy
@@ -165,10 +166,12 @@ class Operator(unittest.TestCase):
         obj = add_mesh()
         before = snapshot(obj)
         tasks, core = (sys.modules[f"{MODULE}.{name}"] for name in ("tasks", "core.options"))
-        run = tasks.Run(bpy.context, core.Options())
+        run = tasks.Run(bpy.context, core.Options(), beside_window=True)  # nothing is renamed while a script waits
+        while not run.is_solving:
+            run.step()
         obj.name = "Renamed"
-        while not run.wait(1.0):
-            pass
+        while not run.step():
+            time.sleep(0.01)
         (done,) = run.finish()
         self.assertEqual((run.problems, [name for name, _, _ in done.prints]), ([], ["Renamed"]))
         self.assertEqual(changes(before, snapshot(obj)), ["uvs of UVMap"])
