@@ -142,6 +142,13 @@ TEST(PackCharts, VeryUnevenSizes) {
   pack(charts, {.gap = 1e-3});
 }
 
+/// By far the most of the box is gap then: on a grid that suited the charts, rasters would have thousands of cells a side and
+/// strips hold few of them. Seven points in a square of side 1 are at best 0.5359 apart.
+TEST(PackCharts, MuchSmallerThanTheGap) {
+  constexpr double kGap = 1000;
+  EXPECT_LT(pack(random_charts(7, 3), {.gap = kGap, .box_aspect = 1}).box.size().x(), 1.2 * kGap / 0.5359);
+}
+
 TEST(PackCharts, SameBitsForEveryNumberOfThreads) {
   const Charts charts = random_charts(12, 3);
   PackOptions options{.gap = 0.01, .seed = 5};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "geometry/box_tree.h"
@@ -63,6 +64,8 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
     dilated_area += 0.5 * options.gap * boundary_length(outline);
     longest = std::max(longest, length_of(outline) + options.gap);
   }
+  // Charts much smaller than the gap take a disk of it each, at the least.
+  dilated_area = std::max(dilated_area, 0.25 * std::numbers::pi * options.gap * options.gap * n);
   Grid grid;
   const double cells = n > kTooManyToCompact ? kCellsOfTooMany : n > kManyCharts ? kCellsOfMany : kCells;
   const double least = options.search == PackSearch::Thorough ? kCells : kRoughCells;
