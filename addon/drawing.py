@@ -98,7 +98,9 @@ def draw_protected(layout, holder):
         ("prefer_seam", "EDGESEL"),
     ):
         halves = layout.split(factor=0.5)
-        halves.label(text=labels[name].name)
+        beside = halves.row()
+        beside.alignment = "RIGHT"  # as Blender's own
+        beside.label(text=labels[name].name)
         halves.prop(holder, name, text="", icon=icon)
     _with_long_names(layout).prop(holder, "mark_seams")
 

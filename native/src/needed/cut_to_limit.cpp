@@ -40,38 +40,11 @@ struct Budget {
   int squeezes;
 };
 
-Budget budget_of(Effort effort) {
-  switch (effort) {
-    case Effort::Fast:
-      return {.first_places = 20,
-              .places = 8,
-              .tips = 2,
-              .first = 3,
-              .improving = 8,
-              .forecasts = 20,
-              .surprises = 1,
-              .squeezes = 10};
-    case Effort::Normal:
-      return {.first_places = 30,
-              .places = 14,
-              .tips = 4,
-              .first = 4,
-              .improving = 18,
-              .forecasts = 32,
-              .surprises = 3,
-              .squeezes = 16};
-    case Effort::Best:
-      return {.first_places = 60,
-              .places = 40,
-              .tips = 8,
-              .first = 8,
-              .improving = 100,
-              .forecasts = 160,
-              .surprises = 30,
-              .squeezes = 60};
-  }
-  return {};
-}
+constexpr Budget kFast{20, 8, 2, 3, 8, 20, 1, 10};
+constexpr Budget kNormal{30, 14, 4, 4, 18, 32, 3, 16};
+constexpr Budget kBest{60, 40, 8, 8, 100, 160, 30, 60};
+
+const Budget& budget_of(Effort effort) { return effort == Effort::Fast ? kFast : effort == Effort::Best ? kBest : kNormal; }
 
 bool has(const std::vector<CutPlace>& cuts, const CutPlace& place) {
   return std::any_of(cuts.begin(), cuts.end(), [&](const CutPlace& cut) { return same(cut, place); });
@@ -93,6 +66,7 @@ struct Prospect {
   bool is_forecast = false;
   int expansion = 0;  ///< in which it was found
 
+  bool is_one_less() const { return gain < 0; }
   /// By the last cut: along edges of faces it may be much longer than straight.
   double growth() const { return trial.growth - growth_before; }
 };
@@ -174,8 +148,8 @@ class Frontier {
   Frontier(const CutTrials& trials, const Wish& wish) : trials_(trials), wish_(wish) {}
 
   void aim_at(double limit) { limit_ = limit; }
-  double aim() const { return 1 + std::exp(limit_); }
-
+  /// As an E_d; 0 where nothing keeps the limit, which a budget of seams has: all is far above.
+  double aim() const { return limit_ > excess(1) ? 1 + std::exp(limit_) : 0; }
   bool empty() const { return open_.empty(); }
   bool is_near(const Trial& trial) const { return likely_excess(trial) <= limit_ + kNear; }
 
@@ -201,7 +175,7 @@ class Frontier {
   /// What is foreseen is rough: what needs much less boundary may do more than that.
   std::optional<Prospect> surprising(double enough) {
     const auto may = std::stable_partition(open_.begin(), open_.end(), [&](const Prospect& p) {
-      return !p.is_forecast && p.gain >= 0 && p.trial.growth < kMuchLess * enough;
+      return !p.is_forecast && !p.is_one_less() && p.trial.growth < kMuchLess * enough;
     });
     if (may == open_.begin()) return std::nullopt;
     return taken_from(
@@ -240,7 +214,7 @@ class Frontier {
   void add_forecast(Prospect prospect) {
     prospect.is_forecast = true;
     const double gain = gain_of(prospect);
-    if (prospect.gain >= 0) {
+    if (!prospect.is_one_less()) {
       savings_.learn(prospect.trial.cuts.back(), prospect.before, prospect.less_strain, prospect.gain, gain);
       if (gain < kLeastGain) return;
       best_rate_ = std::max(best_rate_, gain / (prospect.growth() + kShortest));
@@ -311,7 +285,7 @@ class LimitSearch {
       if (!next) break;
       if (next->is_forecast) {
         look_at(*next);
-      } else if (may_forecast() || (next->gain < 0 && found_.tried < budget_.forecasts)) {
+      } else if (may_forecast() || (next->is_one_less() && found_.tried < budget_.forecasts)) {
         forecast(std::move(*next));
       }
     }

@@ -20,8 +20,8 @@ namespace {
 /// looking for each chart's place from the bottom on takes too long.
 constexpr int kTooManyToCompact = 500;
 constexpr int kFinalists = 4;
-/// Work of making the box of one of them smaller, about 0.15 s, and that of a fair search's only one.
-constexpr std::int64_t kShrinkingWork = 20'000'000, kFairWork = 3'000'000;
+/// Work of making the box of one of them smaller, about 0.15 s, and that of a fair search's only one: of so much a chart.
+constexpr std::int64_t kShrinkingWork = 20'000'000, kFairWork = 10'000'000, kFairWorkOfChart = 500'000;
 constexpr int kBatch = 32, kRoughBatch = 8;  // greedy starts between two looks at the target
 constexpr int kFew = 3;                      // charts: greedy placements are as good as any
 constexpr int kRoughStarts = 33;             // of rough and fair searches, with that one which tells what they cost
@@ -169,7 +169,7 @@ class Search {
       if (least_area_ > enough_) compact_best(kFinalists, 0.9, 1);
     }
     if (options_.search == PackSearch::Fair && least_area_ > enough_ && n > kFew && n <= kManyCharts) {
-      shrink_best(1, kFairWork);
+      shrink_best(1, std::min(kFairWork, n * kFairWorkOfChart));
       compact_best(1, 0.9, 1);
     }
     return best_;

@@ -123,13 +123,11 @@ Forecast forecast_of(const std::vector<Chart>& charts, const std::optional<Coars
   return out;
 }
 
-/// What a forecast may take: cuts that leave charts jammed for longer are not those that pay. Coarse charts are hurried; without
-/// such what is forecast is the end itself.
+/// What a forecast may take: cuts that leave charts jammed for longer are not those that pay. Only coarse charts are told
+/// roughly: without such what is forecast is the end itself.
 SqueezeOptions briefly(SqueezeOptions options, bool coarse) {
   constexpr int kForecastIterations = 150;
-  constexpr double kFastClimb = 2;
   options.max_iterations = kForecastIterations;
-  options.climb = coarse ? kFastClimb : 1;
   if (!coarse) options.aim = 0;
   return options;
 }

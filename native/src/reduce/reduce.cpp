@@ -108,7 +108,7 @@ void assemble(ReduceModel& model, const ReduceState& state, double stiffness, Tr
 double price_of_gain(const Task& task, const Iterate& at, const Schedule& schedule, double own_gain, double gain_per_price) {
   const double deficit = task.deficit(at, schedule.margin);
   // Too distorted: hold the PE and relax before climbing on.
-  const double climb = task.within_limit(at) ? task.problem.climb * largest_climb(deficit) : 0;
+  const double climb = task.within_limit(at) ? largest_climb(deficit) : 0;
   double price = std::max(0.0, (std::min(deficit, climb) - own_gain) / gain_per_price);
   if (!schedule.relaxing) return price;
   const double fall = largest_fall(at.energy, task.problem.enough_distortion);

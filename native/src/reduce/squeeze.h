@@ -22,7 +22,6 @@ struct SqueezeOptions {
   double least_change = 5e-4;  ///< ReduceProblem::least_change: the last 1e-5 of E_d took a third of all iterations
   double negligible = 1e-6;    ///< ReduceProblem::negligible
   double aim = 0;              ///< ReduceProblem::aim
-  double climb = 1;            ///< ReduceProblem::climb
   int max_iterations = ReduceProblem::kMostIterations;  ///< of each reduction
   Stored stored = Stored::Double;
 };
