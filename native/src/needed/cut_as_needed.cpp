@@ -1,51 +1,24 @@
-// Without a limit: the cuts that promise most are squeezed, and others forecast from there.
+// One path of sets of cuts, along growing boundary: how far it is gone, and which of them are squeezed.
 #include "needed/cut_as_needed.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <deque>
 #include <limits>
 
 #include "needed/cut_outcomes.h"
-#include "needed/cut_to_limit.h"
+#include "needed/cut_path.h"
 
 namespace atlas_refine {
 namespace {
 
-constexpr int kMostPoints = 24;     // of a trade-off
-constexpr int kTipsPart = 3;        // one of so many cuts leads to a point of high curvature
-constexpr int kPackings = 2;        // more of several charts, before any is cut
-constexpr double kByChance = 5e-4;  // of E_d: so much more or less other packings of a file came to
+constexpr std::size_t kMostPoints = 24;  // of a trade-off
+constexpr int kPackings = 2;             // more of several charts, before any is cut
+constexpr double kByChance = 5e-4;       // of E_d: so much more or less other packings of a file came to
 constexpr double kAnyGrowth = std::numeric_limits<double>::infinity();
 constexpr double kAsGood = 1.02;          // times the boundary, or the cost: what symmetric cuts may have more
 constexpr double kFewOfRectangles = 0.4;  // growth: rectangles add less to 5 of the 46 files of one chart in the bench only
-constexpr std::array<double, 5> kPrices = {0.1, 0.4, 0.05, 0.2, 0.025};  // of seams, as seam_cost: for a trade-off
-
-/// How far the search goes.
-struct Budget {
-  int forecasts;         ///< cuts that are tried from one state
-  int expansions;        ///< states that others are tried from
-  std::size_t squeezes;  ///< states that are squeezed to the end
-};
-
-Budget budget_of(Effort effort) {
-  switch (effort) {
-    case Effort::Fast:
-      return {8, 3, 6};
-    case Effort::Normal:
-      return {12, 8, 12};
-    case Effort::Best:
-      return {32, 20, 40};
-  }
-  return {};
-}
-
-/// Where seams cost nothing the least distortion is looked for that the budget of seams allows.
-RefineOptions with_limit(RefineOptions options) {
-  if (!options.max_distortion && !options.max_stretch) options.max_distortion = 1;
-  return options;
-}
+constexpr double kNear =
+    0.1;  // of the excess above the limit, or of the least cost: what is forecast so near may keep it, or be it
 
 /// Several charts are packed by chance: another packing may keep a limit of E_d that the first nearly kept.
 SqueezedTrial without_cuts(CutTrials& trials, const Wish& wish, const ProgressRange& range) {
@@ -92,9 +65,9 @@ class Search {
     found_.squeezed.push_back(without_cuts(trials_, wish_, step()));
     if (options_.trade_off) {
       look_for_all();
-    } else if (wish_.has_limit() || options_.seam_cost == 0) {
-      cut_to_limit(trials_, with_limit(options_), step(), found_);
-      if (wish_.has_limit() && may_need_rectangles()) look_at_rectangles();
+    } else if (wish_.has_limit()) {
+      keep_limit();
+      if (may_need_rectangles()) look_at_rectangles();
     } else {
       look_for_best();
     }
@@ -112,31 +85,58 @@ class Search {
     return out;
   }
 
+  /// The first set that keeps the limits has the least boundary; a budget may leave none, and then the nearest is wanted.
+  void keep_limit() {
+    if (wish_.is_enough(found_.squeezed.front().trial)) return;
+    CutPath path(trials_, options_, step(), found_);
+    bool goes_on = true;
+    while (goes_on && path.passed() < most_growth() && !trials_.finishing()) {
+      goes_on = path.advance(most_growth());
+      for (CutSet* set : path.front(most_growth())) {
+        if (set->squeezed || above_limits(path, *set) > kNear) continue;
+        const SqueezedTrial* squeezed = path.squeeze(*set);
+        if (squeezed && wish_.is_enough(squeezed->trial)) return;
+      }
+    }
+    squeeze_best(
+        path, [&](const CutSet& set) { return std::exp(above_limits(path, set)); },
+        [&](const Trial& trial) { return std::exp(wish_.above_limits(trial.distortion, trial.stretch)); });
+  }
+
   void look_for_best() {
-    expand(found_.squeezed.front());
-    while (found_.squeezed.size() < budget_.squeezes && !found_.forecast.empty() && !trials_.finishing()) {
-      const auto next = cheapest([&](const Trial& trial) { return wish_.cost(trial); });
-      if (wish_.cost(*next) >= wish_.cost(found_.best(wish_).trial) - kSettled) break;
-      const SqueezedTrial* found = squeeze(next);
-      if (found && found == &found_.best(wish_) && expansions_ < budget_.expansions) expand(*found);
+    CutPath path(trials_, options_, step(), found_);
+    const double weight = options_.seam_cost * wish_.growth_weight;
+    const auto likely = [&](const CutSet& set) {
+      return std::min(path.likely_distortion(set), kHopeless) + weight * set.trial.growth - 1;
+    };
+    double least = wish_.cost(found_.squeezed.front().trial) - 1;
+    while (path.passed() < most_growth() && weight * path.passed() < least && path.advance(most_growth())) {
+      for (const CutSet* set : path.front(most_growth())) least = std::min(least, likely(*set));
+    }
+    squeeze_best(path, likely, [&](const Trial& trial) { return wish_.cost(trial) - 1; });
+  }
+
+  /// Those that may be the best, what is likeliest first.
+  template <class Likely, class Came>
+  void squeeze_best(CutPath& path, const Likely& likely, const Came& came) {
+    std::vector<CutSet*> sets = path.front(most_growth());
+    std::stable_sort(sets.begin(), sets.end(), [&](const CutSet* a, const CutSet* b) { return likely(*a) < likely(*b); });
+    for (CutSet* set : sets) {
+      if (likely(*set) > (1 + kNear) * came(found_.best(wish_).trial) || trials_.finishing()) return;
+      path.squeeze(*set);
     }
   }
 
-  /// Goes on from what is cheapest at one price of seams after the other, then squeezes what may be worth a choice.
   void look_for_all() {
-    expand(found_.squeezed.front());
-    for (int k = 0; k < budget_.expansions && !found_.forecast.empty() && !trials_.finishing(); ++k) {
-      const double price = kPrices[k % kPrices.size()];
-      const SqueezedTrial* found =
-          squeeze(cheapest([&](const Trial& trial) { return loss(trial) + price * wish_.growth_weight * trial.growth; }));
-      if (found) expand(*found);
+    CutPath path(trials_, options_, step(), found_);
+    while (path.passed() < most_growth() && path.advance(most_growth())) continue;
+    for (CutSet* set : path.front(most_growth())) {
+      if (found_.squeezed.size() < kMostPoints && !trials_.finishing()) path.squeeze(*set);
     }
-    for (int k = 0; k < kMostPoints && !trials_.finishing(); ++k) {
-      const auto next = found_.forecast_on_front();
-      if (next == found_.forecast.end()) break;
-      squeeze(next);
-    }
-    found_.forecast.clear();
+  }
+
+  double above_limits(const CutPath& path, const CutSet& set) const {
+    return wish_.above_limits(path.likely_distortion(set), path.likely_stretch(set));
   }
 
   /// The limit is not kept, or by so many seams that rectangles may need fewer.
@@ -153,55 +153,11 @@ class Search {
 
   double most_growth() const { return options_.max_boundary_growth.value_or(kAnyGrowth); }
 
-  template <class Cost>
-  std::vector<Trial>::iterator cheapest(const Cost& cost) {
-    return std::min_element(found_.forecast.begin(), found_.forecast.end(),
-                            [&](const Trial& a, const Trial& b) { return cost(a) < cost(b); });
-  }
-
-  /// Nothing where the bound does not hold.
-  const SqueezedTrial* squeeze(std::vector<Trial>::iterator next) {
-    const Trial trial = *next;
-    found_.forecast.erase(next);
-    auto squeezed = trials_.squeezed(trial, step());
-    if (squeezed) return &found_.squeezed.emplace_back(std::move(*squeezed));
-    found_.failed.push_back(trial);
-    return nullptr;
-  }
-
-  /// Forecasts what one more cut comes to, and what one cut less does.
-  void expand(const SqueezedTrial& present) {
-    ++expansions_;
-    for (auto& trial : trials_.forecasts(neighbours(present.trial), &present, {most_growth()}, step())) {
-      if (!trial) continue;
-      ++found_.tried;
-      const double gain = loss(present.trial) - loss(*trial);
-      if ((trial->growth > present.trial.growth && gain < kSettled) || found_.knows(*trial)) continue;
-      found_.forecast.push_back(std::move(*trial));
-    }
-  }
-
-  std::vector<std::vector<CutPlace>> neighbours(const Trial& present) const {
-    std::vector<std::vector<CutPlace>> out;
-    const int tips = budget_.forecasts / kTipsPart;
-    for (const CutPlace& place : trials_.places(present, budget_.forecasts - tips, tips)) {
-      out.push_back(present.cuts);
-      out.back().push_back(place);
-    }
-    for (std::size_t k = 0; k + 1 < present.cuts.size(); ++k) {
-      out.push_back(present.cuts);
-      out.back().erase(out.back().begin() + static_cast<std::ptrdiff_t>(k));
-    }
-    return out;
-  }
-
   CutTrials& trials_;
   const RefineOptions& options_;
   Wish wish_{options_, trials_.growth_weight()};
-  Budget budget_ = budget_of(options_.effort);
   ProgressRange rest_;
   Outcomes found_;
-  int expansions_ = 0;
 };
 
 }  // namespace

@@ -19,6 +19,8 @@ double loss(const Trial& trial);
 
 /// Cuts save a part of what is lost, not a number of it: they are compared by its logarithm.
 double excess(double distortion);
+/// The same of stretch: E_d - 1 goes with its square.
+double excess_of_stretch(double stretch);
 
 /// What the options ask of cuts.
 struct Wish {
@@ -31,8 +33,6 @@ struct Wish {
   }
   /// By how much these exceed the limits, as excess(); negative where they are below them.
   double above_limits(double distortion, double stretch) const;
-  /// The excess that keeps the limits: that of the largest E_d or, if less, what stretch leaves of the excess without cuts.
-  double aim(const Trial& whole) const;
   double cost(const Trial& trial) const { return loss(trial) + options.seam_cost * growth_weight * trial.growth; }
 
   /// With a limit the least seams that keep it, else the least of distortion and what seams cost.
@@ -42,17 +42,11 @@ struct Wish {
 /// All that was found.
 struct Outcomes {
   std::deque<SqueezedTrial> squeezed;  ///< the first without cuts
-  std::vector<Trial> forecast;         ///< those not squeezed
-  std::vector<Trial> failed;           ///< forecast to hold the bound, which they do not
   int tried = 0;
 
-  /// The same cuts may come in another order.
-  bool knows(const Trial& trial) const;
   SqueezedTrial& best(const Wish& wish);
   /// Those than which no other has both less boundary and less distortion.
   std::vector<TradeOff> trade_off() const;
-  /// Its end where there is none.
-  std::vector<Trial>::iterator forecast_on_front();
   SqueezedTrial& point(int number);
   CutReport report(const Trial& chosen) const;
 };
