@@ -54,10 +54,16 @@ TEST(SymmetricCuts, OneAlongThePlaneIsPutOntoIt) {
   EXPECT_TRUE(same(sets[0][0], cut({0, 0}, {0, 3})));
 }
 
-TEST(SymmetricCuts, WhatIsSymmetricOrFarFromItIsLeft) {
+TEST(SymmetricCuts, WhatIsSymmetricOrAloneIsLeft) {
   EXPECT_TRUE(symmetric_sets({cut({2, 0}, {2, 3}), cut({-2, 3}, {-2, 0})}, kByU).empty());
   EXPECT_TRUE(symmetric_sets({cut({2, 0}, {2, 3})}, kByU).empty());
-  EXPECT_TRUE(symmetric_sets({cut({2, 0}, {2, 3}), cut({-8, 0}, {-9, 4})}, kByU).empty());
+}
+
+TEST(SymmetricCuts, FarFromTheImageOfALongerOneNoneIsPutThere) {
+  const auto sets = symmetric_sets({cut({2, 0}, {2, 3}), cut({-8, 0}, {-9, 4})}, kByU);
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_TRUE(same(sets[0][0], cut({2, 0}, {2, 3})));
+  EXPECT_TRUE(same(sets[0][1], cut({-2, 0}, {-2, 3})));
 }
 
 TEST(SymmetricCuts, CutsWithoutAnImageAreLeft) {

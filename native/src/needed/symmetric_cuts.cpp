@@ -7,7 +7,7 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kAsLong = 0.1;  // of a cut's length: one that differs less may be moved to the image of another
+constexpr double kAsLong = 0.1;  // of a cut's length: far from the image of another it is put there where that is hardly longer
 constexpr double kNearly = 1;    // times its length: so far, all together, the ends of a cut are from those of the other's image
 
 /// How far the ends are from each other, as a part of the length; `reversed`: the first from the second.
@@ -30,17 +30,17 @@ std::optional<CutPlace> straightened(const CutPlace& cut, const CutPlace& image,
   return out;
 }
 
-/// The later cut that best stands for the image of one: the first that is near it, else the first as long; their count where
-/// there is none.
+/// The later cut that best stands for the image of one: the first that is near it, else the one whose length is most alike; their
+/// count where there is none.
 std::size_t partner_of(const std::vector<CutPlace>& cuts, const std::vector<char>& done, std::size_t one, const CutPlace& image) {
-  std::size_t as_long = cuts.size();
+  std::size_t alike = cuts.size();
+  const auto apart = [&](std::size_t k) { return std::abs(cuts[k].chord.length() - image.chord.length()); };
   for (std::size_t k = one + 1; k < cuts.size(); ++k) {
     if (done[k]) continue;
     if (near(cuts[k], image)) return k;
-    const bool is_as_long = std::abs(cuts[k].chord.length() - image.chord.length()) < kAsLong * image.chord.length();
-    if (is_as_long && as_long == cuts.size()) as_long = k;
+    if (alike == cuts.size() || apart(k) < apart(alike)) alike = k;
   }
-  return as_long;
+  return alike;
 }
 
 /// `first`: which of two, and which end of one, the others go by.
@@ -56,10 +56,11 @@ std::vector<CutPlace> symmetric_set(std::vector<CutPlace> cuts, std::size_t firs
     const std::size_t j = partner_of(cuts, done, i, *image);
     if (j == cuts.size()) continue;
     const auto back = mirrored.image(cuts[j]);
-    if (first == 0 || !back)
-      cuts[j] = *image;
-    else
-      cuts[i] = *back;
+    const bool by_other = first == 1 && back;
+    CutPlace& moved = by_other ? cuts[i] : cuts[j];
+    const CutPlace& to = by_other ? *back : *image;
+    if (!near(moved, to) && to.chord.length() > (1 + kAsLong) * moved.chord.length()) continue;
+    moved = to;
     done[j] = 1;
   }
   return cuts;
