@@ -88,7 +88,7 @@ class Search {
   /// The first set that keeps the limits has the least boundary; a budget may leave none, and then the nearest is wanted.
   void keep_limit() {
     if (wish_.is_enough(found_.squeezed.front().trial)) return;
-    CutPath path(trials_, options_, step(), found_);
+    CutPath path(trials_, options_, options_.max_boundary_growth.has_value(), step(), found_);
     bool goes_on = true;
     while (goes_on && path.passed() < most_growth() && !trials_.finishing()) {
       goes_on = path.advance(most_growth());
@@ -104,7 +104,7 @@ class Search {
   }
 
   void look_for_best() {
-    CutPath path(trials_, options_, step(), found_);
+    CutPath path(trials_, options_, true, step(), found_);
     const double weight = options_.seam_cost * wish_.growth_weight;
     const auto likely = [&](const CutSet& set) {
       return std::min(path.likely_distortion(set), kHopeless) + weight * set.trial.growth - 1;
@@ -128,7 +128,7 @@ class Search {
   }
 
   void look_for_all() {
-    CutPath path(trials_, options_, step(), found_);
+    CutPath path(trials_, options_, true, step(), found_);
     while (path.passed() < most_growth() && path.advance(most_growth())) continue;
     for (CutSet* set : path.front(most_growth())) {
       if (found_.squeezed.size() < kMostPoints && !trials_.finishing()) path.squeeze(*set);

@@ -24,16 +24,17 @@ struct Budget {
   int places, tips;  ///< the same from a set of cuts, and cuts to points of high curvature
   int first;         ///< forecast at once
   int forecasts;
+  int a_step, in_all;  ///< the least a step, and the most, where the path is thorough
 };
 
 Budget budget_of(Effort effort) {
   switch (effort) {
     case Effort::Fast:
-      return {20, 8, 2, 3, 20};
+      return {20, 8, 2, 3, 20, 2, 40};
     case Effort::Normal:
-      return {30, 14, 4, 4, 40};
+      return {30, 14, 4, 4, 40, 3, 96};
     case Effort::Best:
-      return {60, 40, 8, 8, 160};
+      return {60, 40, 8, 8, 160, 6, 320};
   }
   return {};
 }
@@ -42,8 +43,9 @@ constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-CutPath::CutPath(const CutTrials& trials, const RefineOptions& options, const ProgressRange& range, Outcomes& found)
-    : trials_(trials), options_(options), rest_(range), found_(found) {
+CutPath::CutPath(const CutTrials& trials, const RefineOptions& options, bool thorough, const ProgressRange& range,
+                 Outcomes& found)
+    : trials_(trials), options_(options), is_thorough_(thorough), rest_(range), found_(found) {
   const SqueezedTrial& whole = found.squeezed.front();
   bias_.learn(whole);
   best_ = measured(whole.trial);
@@ -105,7 +107,7 @@ double CutPath::rate_of(const CutSet& set) const { return (best_ - foreseen(set)
 /// Those that may be next, what saves most for its length first.
 std::vector<CutSet*> CutPath::ahead(double reach) {
   std::vector<CutSet*> out;
-  const bool may_forecast = found_.tried < budget_of(options_.effort).forecasts;
+  const bool may_forecast = this->may_forecast();
   for (CutSet& set : sets_) {
     if (set.is_out || set.trial.growth <= passed_ || set.trial.growth > reach || (!set.is_forecast && !may_forecast)) continue;
     if (foreseen(set) < best_ - kLeastGain) out.push_back(&set);
@@ -114,16 +116,24 @@ std::vector<CutSet*> CutPath::ahead(double reach) {
   return out;
 }
 
+bool CutPath::may_forecast() const {
+  const Budget budget = budget_of(options_.effort);
+  return found_.tried < (is_thorough_ ? budget.in_all : budget.forecasts);
+}
+
 CutSet* CutPath::next(double reach) {
+  const Budget budget = budget_of(options_.effort);
+  const int enough = found_.tried + (is_thorough_ ? budget.a_step : 0);
   while (!trials_.finishing()) {
     std::vector<CutSet*> sets = ahead(reach);
     if (sets.empty()) return nullptr;
-    if (sets.front()->is_forecast) {
-      if (add_with_one_less(*sets.front())) continue;
-      return sets.front();
+    CutSet* first = sets.front();
+    sets.erase(std::remove_if(sets.begin(), sets.end(), [](const CutSet* set) { return set->is_forecast; }), sets.end());
+    if (first->is_forecast && (sets.empty() || found_.tried >= enough)) {
+      if (add_with_one_less(*first)) continue;
+      return first;
     }
-    const std::size_t most = found_.tried == 0 ? budget_of(options_.effort).first : 1;
-    sets.resize(std::min(sets.size(), most));
+    sets.resize(std::min<std::size_t>(sets.size(), found_.tried == 0 ? budget.first : 1));
     forecast(sets);
   }
   return nullptr;
@@ -155,7 +165,7 @@ void CutPath::pass(CutSet& set) {
     set.excess = measured(squeezed->trial);
   }
   best_ = std::min(best_, set.excess);
-  if (found_.tried >= budget_of(options_.effort).forecasts) return;
+  if (!may_forecast()) return;
   if (squeezed) return expand(squeezed->trial, set.excess, squeezed);
   if (trials_.places_anew()) expand(set.trial, set.excess, nullptr);
 }

@@ -28,8 +28,8 @@ struct CutSet {
 /// does not come back to. So a larger budget has all that a smaller one has to choose from, and a looser limit ends no later.
 class CutPath {
  public:
-  /// `found` has the charts without cuts.
-  CutPath(const CutTrials& trials, const RefineOptions& options, const ProgressRange& range, Outcomes& found);
+  /// `thorough`: more is forecast a step, which is one of boundary. `found` has the charts without cuts.
+  CutPath(const CutTrials& trials, const RefineOptions& options, bool thorough, const ProgressRange& range, Outcomes& found);
 
   /// Passes another set; false at the end, where all is passed, or nothing is left that adds at most `most_growth`.
   bool advance(double most_growth);
@@ -47,6 +47,7 @@ class CutPath {
   double foreseen(const CutSet& set) const;
   double rate_of(const CutSet& set) const;
   std::vector<CutSet*> ahead(double reach);
+  bool may_forecast() const;
   CutSet* next(double reach);
   void forecast(const std::vector<CutSet*>& sets);
   void pass(CutSet& set);
@@ -57,6 +58,7 @@ class CutPath {
 
   const CutTrials& trials_;
   const RefineOptions& options_;
+  bool is_thorough_;
   ProgressRange rest_;
   Outcomes& found_;
   std::deque<CutSet> sets_;
