@@ -95,6 +95,33 @@ TEST(Needed, ALowerLimitNeedsMoreBoundary) {
   EXPECT_LT(loose.boundary_growth, tight.boundary_growth);
 }
 
+TEST(Needed, ALooserLimitNeedsNoMoreBoundary) {
+  for (const Atlas& atlas : {flat_s(), flat_star()}) {
+    const double loss = without_cuts(atlas) - 1;
+    double before = 0;
+    for (const double part : {0.9, 0.75, 0.6, 0.45, 0.3, 0.2}) {
+      const double growth = refine_soundly(atlas, needed_within(1 + part * loss)).boundary_growth;
+      EXPECT_GE(growth, before) << part;
+      before = growth;
+    }
+  }
+}
+
+TEST(Needed, ALargerBudgetIsNeverWorse) {
+  for (const Atlas& atlas : {flat_s(), flat_star()}) {
+    RefineOptions options = needed();
+    options.seam_cost = 0;
+    double before = without_cuts(atlas);
+    for (const double budget : {0.02, 0.04, 0.06, 0.08, 0.1, 0.15, 0.2, 0.3}) {
+      options.max_boundary_growth = budget;
+      const double distortion = refine_soundly(atlas, options).after.distortion;
+      EXPECT_LE(distortion, before) << budget;
+      before = distortion;
+    }
+    EXPECT_LT(before, without_cuts(atlas));
+  }
+}
+
 TEST(Needed, WhereNoCutsKeepTheLimitRectanglesDo) {
   const Atlas comb = shapes::mesh(shapes::comb(), 0.1, 0), u = shapes::mesh(shapes::u_shape(), 0.1, 0);
   RefineOptions options = needed_within(1.0001);
