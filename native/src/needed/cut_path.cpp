@@ -15,8 +15,10 @@ namespace {
 constexpr double kStep = 1.2;         // times the boundary that was passed
 constexpr double kLeastStep = 0.015;  // more than that, as growth
 constexpr double kRemoved = 0.2;      // of what a cut saved when it was added is lost without it, where that pays
-constexpr double kStretch = 0.7;      // the part of stretch in what the path goes by, where that is limited
-constexpr std::size_t kPruned = 3;    // cuts: of fewer none is left out
+constexpr double kSurprise =
+    0.05;  // of the excess: what promises to be no worse than that may be better where the path is thorough
+constexpr double kStretch = 0.7;    // the part of stretch in what the path goes by, where that is limited
+constexpr std::size_t kPruned = 3;  // cuts: of fewer none is left out
 
 /// How far the path goes.
 struct Budget {
@@ -60,7 +62,9 @@ bool CutPath::advance(double most_growth) {
       return true;
     }
     double least = kEverywhere;
-    for (const CutSet* set : ahead(kEverywhere)) least = std::min(least, set->trial.growth);
+    for (const CutSet* set : ahead(kEverywhere)) {
+      if (set->trial.growth > reach) least = std::min(least, set->trial.growth);
+    }
     if (!std::isfinite(least) || least > most_growth) break;
     reach = std::max(reach, kStep * least);
   }
@@ -110,7 +114,8 @@ std::vector<CutSet*> CutPath::ahead(double reach) {
   const bool may_forecast = this->may_forecast();
   for (CutSet& set : sets_) {
     if (set.is_out || set.trial.growth <= passed_ || set.trial.growth > reach || (!set.is_forecast && !may_forecast)) continue;
-    if (foreseen(set) < best_ - kLeastGain) out.push_back(&set);
+    const double least_gain = set.is_forecast || !is_thorough_ ? kLeastGain : -kSurprise;
+    if (foreseen(set) < best_ - least_gain) out.push_back(&set);
   }
   std::stable_sort(out.begin(), out.end(), [&](const CutSet* a, const CutSet* b) { return rate_of(*a) > rate_of(*b); });
   return out;
@@ -133,6 +138,7 @@ CutSet* CutPath::next(double reach) {
       if (add_with_one_less(*first)) continue;
       return first;
     }
+    if (is_thorough_ && found_.tried >= enough && foreseen(*sets.front()) >= best_ - kLeastGain) return nullptr;
     sets.resize(std::min<std::size_t>(sets.size(), found_.tried == 0 ? budget.first : 1));
     forecast(sets);
   }
