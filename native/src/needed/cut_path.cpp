@@ -26,17 +26,17 @@ struct Budget {
   int places, tips;  ///< the same from a set of cuts, and cuts to points of high curvature
   int first;         ///< forecast at once
   int forecasts;
-  int a_step, in_all;  ///< the least a step, and the most, where the path is thorough
+  int a_step;  ///< the least a step, where the path is thorough
 };
 
 Budget budget_of(Effort effort) {
   switch (effort) {
     case Effort::Fast:
-      return {20, 8, 2, 3, 20, 2, 40};
+      return {20, 8, 2, 3, 40, 2};
     case Effort::Normal:
-      return {30, 14, 4, 4, 40, 3, 96};
+      return {30, 14, 4, 4, 96, 3};
     case Effort::Best:
-      return {60, 40, 8, 8, 160, 6, 320};
+      return {60, 40, 8, 8, 320, 6};
   }
   return {};
 }
@@ -121,10 +121,7 @@ std::vector<CutSet*> CutPath::ahead(double reach) {
   return out;
 }
 
-bool CutPath::may_forecast() const {
-  const Budget budget = budget_of(options_.effort);
-  return found_.tried < (is_thorough_ ? budget.in_all : budget.forecasts);
-}
+bool CutPath::may_forecast() const { return found_.tried < budget_of(options_.effort).forecasts; }
 
 CutSet* CutPath::next(double reach) {
   const Budget budget = budget_of(options_.effort);
