@@ -22,6 +22,8 @@ constexpr int kTooManyToCompact = 500;
 constexpr int kFinalists = 4;
 /// Work of making the box of one of them smaller, about 0.15 s, and that of a fair search's only one: of so much a chart.
 constexpr std::int64_t kShrinkingWork = 20'000'000, kFairWork = 10'000'000, kFairWorkOfChart = 500'000;
+/// Of the greedy starts, where all boxes so far are so many times too large: charts will be bent, from any packing about as well.
+constexpr double kPartOfStarts = 0.25, kOutOfReach = 1.3;
 constexpr int kBatch = 32, kRoughBatch = 8;  // greedy starts between two looks at the target
 constexpr int kFew = 3;                      // charts: greedy placements are as good as any
 constexpr int kRoughStarts = 33;             // of rough and fair searches, with that one which tells what they cost
@@ -133,11 +135,22 @@ int starts_of(int charts, const PackOptions& options) {
 
 int batch_of(const PackOptions& options) { return options.search == PackSearch::Thorough ? kBatch : kRoughBatch; }
 
-/// In cells. Only the best is wanted of rough layouts: what is larger before all charts are placed is not finished.
-double most_useful(const std::vector<GridLayout>& layouts, const PackOptions& options) {
+double least_area_in_cells(const std::vector<GridLayout>& layouts, const PackOptions& options) {
   double least = INFINITY;
   for (const GridLayout& layout : layouts) least = std::min(least, box_area(layout.width, layout.height, options.box_aspect));
-  return options.search == PackSearch::Thorough ? INFINITY : least;
+  return least;
+}
+
+/// In cells. Only the best is wanted of rough layouts: what is larger before all charts are placed is not finished.
+double most_useful(const std::vector<GridLayout>& layouts, const PackOptions& options) {
+  return options.search == PackSearch::Thorough ? INFINITY : least_area_in_cells(layouts, options);
+}
+
+/// Where the first `count` of so many starts are as good as all of them; `enough` in cells.
+bool suffice(const std::vector<GridLayout>& layouts, int count, int starts, double enough, const PackOptions& options) {
+  const double least = least_area_in_cells(layouts, options);
+  const bool out_of_reach = least > kOutOfReach * enough && options.search == PackSearch::Thorough;
+  return least <= enough || (out_of_reach && count > kPartOfStarts * starts);
 }
 
 /// Of so many starts, each of which costs `work`.
@@ -210,8 +223,8 @@ class Search {
     watch_.begin_part(0.05, 0.3);
     add_greedy(0, 1, starts);
     starts = affordable_starts(layouts_[0].work, starts);
-    const auto reaches = [&](const GridLayout& layout) { return area_of(layout) <= enough_; };
-    for (int first = 1; first < starts && std::none_of(layouts_.begin(), layouts_.end(), reaches); first += batch_of(options_))
+    const double enough = enough_ / (grid_.cell * grid_.cell);
+    for (int first = 1; first < starts && !suffice(layouts_, first, starts, enough, options_); first += batch_of(options_))
       add_greedy(first, std::min(batch_of(options_), starts - first), starts);
     rank();
   }
