@@ -7,6 +7,7 @@
 #include "atlas_refine/error.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
+#include "pack/room_for_gap.h"
 #include "placing.h"
 #include "reduce/goal.h"
 #include "reduce/relax_apart.h"
@@ -36,7 +37,7 @@ std::optional<PlacedCharts> own_layout(const Refinement& run, const std::vector<
       for (Vec2& uv : chart.uvs) uv *= scale;
     }
   }
-  if (!gap_kept(own, freedom, gap, aspect)) return std::nullopt;
+  if (!gap_kept(run, own, freedom, gap)) return std::nullopt;
   return own;
 }
 
@@ -156,8 +157,7 @@ bool part_pinches(const Refinement& run, const Freedoms& freedom, std::vector<Ch
 /// Charts that were changed where they lie are still the gap apart, and in their frame if they have one.
 bool still_apart(const Refinement& run, const Placing& placing, const Freedoms& freedom) {
   const PlacedCharts& placed = placing.placed;
-  return !placed.has_frame() && gap_kept(placed, freedom, placing.gap, run.options.box_aspect) &&
-         certify_charts(placed.charts, {}, freedom).valid();
+  return !placed.has_frame() && gap_kept(run, placed, freedom, placing.gap) && certify_charts(placed.charts, {}, freedom).valid();
 }
 
 /// Slits that would close where they are stored are parted: nothing bends these charts any more.
@@ -181,6 +181,20 @@ void require_no_needles(const std::vector<Chart>& pieces) {
   if (!needles.charts.empty()) throw needles;
 }
 
+/// Refuses at once what bending cannot bring: charts of about their areas have no room for the gap at the bound.
+void require_room_for_gap(const Refinement& run, const std::vector<Chart>& pieces, const Freedoms& freedom) {
+  constexpr double kAreasChange = 1.05;  // as charts bend
+  const RefineOptions& options = run.options;
+  if (!options.gap || options.box_aspect == 0 || options.best_effort || any_fixed(freedom) || pieces.size() == 1) return;
+  const double most = RoomForGap(pieces, *options.gap, options.box_aspect).most_pe();
+  if (options.pe_bound <= kAreasChange * most) return;
+  const double of_asked = run.asked.pe_bound / options.pe_bound;  // of the whole texture
+  throw RefineError(ErrorCode::BoundNotReached, "pack",
+                    "the gap leaves no room for " + std::to_string(pieces.size()) + " charts at the bound " +
+                        number_text("%g", run.asked.pe_bound) + ": with it they cover less than " +
+                        number_text("%.2f", of_asked * most));
+}
+
 }  // namespace
 
 Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool keeps_place, const ProgressRange& range) {
@@ -190,6 +204,7 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
   std::vector<Chart> pieces = meshes_of(atlas);
   run.journal.begin_stage("pack", range.part(0, 0.25));
   require_no_needles(pieces);
+  require_room_for_gap(run, pieces, freedom);
   std::vector<Gap> gaps = gaps_of(run, pieces, freedom);
   const double good_enough = options.relax && !atlas.seams.empty() ? kNearly * options.pe_bound : options.pe_bound;
   Placing placing = place_with(run, pieces, freedom, good_enough, gaps);
