@@ -9,6 +9,7 @@
 #include "atlas_refine/error.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
+#include "pack/room_for_gap.h"
 #include "placing.h"
 #include "reduce/goal.h"
 #include "reduce/relax_apart.h"
@@ -38,7 +39,7 @@ std::optional<PlacedCharts> own_layout(const Refinement& run, const std::vector<
       for (Vec2& uv : chart.uvs) uv *= scale;
     }
   }
-  if (!gap_kept(own, freedom, gap, aspect)) return std::nullopt;
+  if (!gap_kept(run, own, freedom, gap)) return std::nullopt;
   return own;
 }
 
@@ -161,7 +162,7 @@ bool stay_whole(const Refinement& run, const std::map<std::size_t, Chart>& pinch
     whole.charts[c] = chart;
     whole.charts[c].uvs = moved_likewise(chart.uvs, charts[c].uvs, placing.placed.charts[c].uvs);
   }
-  const bool holds = holds_bound(run, whole, kStoredSpare) && gap_kept(whole, freedom, placing.gap, run.options.box_aspect);
+  const bool holds = holds_bound(run, whole, kStoredSpare) && gap_kept(run, whole, freedom, placing.gap);
   if (!holds || !certify_charts(whole.charts, points, freedom).valid()) return false;
   for (const auto& [c, chart] : pinched) charts[c] = chart;
   placing.placed = std::move(whole);
@@ -189,6 +190,20 @@ void require_no_needles(const std::vector<Chart>& pieces) {
   if (!needles.charts.empty()) throw needles;
 }
 
+/// Refuses at once what bending cannot bring: charts of about their areas have no room for the gap at the bound.
+void require_room_for_gap(const Refinement& run, const std::vector<Chart>& pieces, const Freedoms& freedom) {
+  constexpr double kAreasChange = 1.05;  // as charts bend
+  const RefineOptions& options = run.options;
+  if (!options.gap || options.box_aspect == 0 || options.best_effort || any_fixed(freedom) || pieces.size() == 1) return;
+  const double most = RoomForGap(pieces, *options.gap, options.box_aspect).most_pe();
+  if (options.pe_bound <= kAreasChange * most) return;
+  const double of_asked = run.asked.pe_bound / options.pe_bound;  // of the whole texture
+  throw RefineError(ErrorCode::BoundNotReached, "pack",
+                    "the gap leaves no room for " + std::to_string(pieces.size()) + " charts at the bound " +
+                        number_text("%g", run.asked.pe_bound) + ": with it they cover less than " +
+                        number_text("%.2f", of_asked * most));
+}
+
 }  // namespace
 
 Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool keeps_place, const ProgressRange& range) {
@@ -198,6 +213,7 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
   std::vector<Chart> pieces = meshes_of(atlas);
   run.journal.begin_stage("pack", range.part(0, 0.25));
   require_no_needles(pieces);
+  require_room_for_gap(run, pieces, freedom);
   std::vector<Gap> gaps = gaps_of(run, pieces, freedom);
   const double good_enough = options.relax && !atlas.seams.empty() ? kNearly * options.pe_bound : options.pe_bound;
   const Journal::Mark before = run.journal.mark();
