@@ -53,7 +53,14 @@ struct Fan {
 };
 
 Mesh mesh_of(const Chart& chart) {
+  constexpr int kSpare = 4;  // triangles that a vertex may gain before its list has to grow
   Mesh out{.corners = chart.triangles, .lengths = {}, .around = std::vector<std::vector<int>>(chart.vertex_count())};
+  std::vector<int> count(chart.vertex_count(), kSpare);
+  for (const Triangle& t : chart.triangles) {
+    for (const int v : t) ++count[v];
+  }
+  for (int v = 0; v < chart.vertex_count(); ++v) out.around[v].reserve(count[v]);
+  out.lengths.reserve(chart.triangles.size());
   for (int t = 0; t < static_cast<int>(chart.triangles.size()); ++t) {
     out.lengths.push_back(side_lengths(chart.surface[t]));
     for (const int v : chart.triangles[t]) out.around[v].push_back(t);

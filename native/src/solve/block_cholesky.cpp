@@ -5,10 +5,14 @@
 #include <array>
 
 #include "solve/elimination_order.h"
+#include "support/parallel.h"
 #include "support/profile.h"
+#include "support/thread_pool.h"
 
 namespace atlas_refine {
 namespace {
+
+constexpr int kGrain = 16384;  // blocks that are set to zero
 
 /// Both triangles of a pattern with its nodes renumbered, and where the blocks lie: as Multifrontal::analyse takes them.
 struct Renumbered {
@@ -115,8 +119,10 @@ void BlockCholesky::add(int i, int j, const Mat2& block) {
 }
 
 void BlockCholesky::set_zero() {
-  std::fill(diagonal.begin(), diagonal.end(), Mat2::Zero());
-  std::fill(off_diagonal.begin(), off_diagonal.end(), Mat2::Zero());
+  for (std::vector<Mat2>* blocks : {&diagonal, &off_diagonal}) {
+    parallel_ranges(static_cast<int>(blocks->size()), present_threads(), kGrain,
+                    [&](int begin, int end) { std::fill(blocks->begin() + begin, blocks->begin() + end, Mat2::Zero()); });
+  }
 }
 
 void BlockCholesky::find_order() {
