@@ -12,7 +12,6 @@
 #include <tuple>
 #include <utility>
 
-#include "coarsen/sample_vertices.h"
 #include "geometry/boundary.h"
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
@@ -369,9 +368,8 @@ bool put_back_pass(const Decimation& decimation, int begin, int end, int threads
 
 }  // namespace
 
-std::optional<Decimation> decimate(const Chart& chart, double spacing) {
+std::optional<Decimation> decimate(const Chart& chart, const Sample& sample) {
   const PhaseScope scope(Phase::Coarsen);
-  const Sample sample = sample_vertices(chart, boundary_flags(chart), spacing);
   std::vector<char> kept(chart.vertex_count(), 0);
   for (const int v : sample.vertices) kept[v] = 1;
   std::vector<int> others;
