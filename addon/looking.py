@@ -43,13 +43,14 @@ class Measuring(_Look):
 
 
 class Selecting(_Look):
-    """Selects the faces that are at fault; what it returns tells how many, object by object."""
+    """Selects the faces that are at fault; what it returns tells how many, object by object. Hidden ones cannot be selected: they are
+    told as such."""
 
     doing = "Looking"
 
     def __init__(self, context, options, kinds, beside_window):
         self._kinds = kinds
-        self._faces = []  # (object's name, UV map, {kind: faces})
+        self._faces = []  # (object's name, UV map, {kind: faces}, hidden faces)
         super().__init__(context, options, None, beside_window)
 
     def _begin(self, context, options):
@@ -62,14 +63,15 @@ class Selecting(_Look):
                 yield
                 atlas = bridge.atlas_of(mesh, uv_map)
                 triangles = bridge.triangles_of(mesh, atlas)
+                hidden = selection.hidden_faces(mesh)
             looked_at = atlas, triangles, name, left
             found = yield lambda looked_at=looked_at: problems.find(engine.module, *looked_at)
-            self._faces.append((name, uv_map, {kind: found[kind] for kind in self._kinds}))
+            self._faces.append((name, uv_map, {kind: found[kind] for kind in self._kinds}, hidden))
         self.atlases = self._faces
         self._at = len(self.atlases)
 
     def _write(self):
-        objs = [bpy.data.objects[name] for name, _, _ in self._faces]
+        objs = [bpy.data.objects[name] for name, *_ in self._faces]
         if bpy.context.mode != "EDIT_MESH":
             for obj in objs:
                 obj.select_set(True)
@@ -77,9 +79,14 @@ class Selecting(_Look):
             bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.select_mode(type="FACE")
         told = []
-        for obj, (name, uv_map, faces) in zip(objs, self._faces, strict=True):
+        for obj, (name, uv_map, faces, hidden) in zip(objs, self._faces, strict=True):
             yield
-            yield from selection.select_in_steps(obj, uv_map, {int(face) for found in faces.values() for face in found})
-            words = [f"{counted(len(found), 'face')} {problems.KINDS[kind].word}" for kind, found in faces.items() if len(found)]
+            shown = {kind: found[~hidden[found]] for kind, found in faces.items()}
+            yield from selection.select_in_steps(obj, uv_map, {int(face) for found in shown.values() for face in found})
+            words = []
+            for kind, found in faces.items():
+                for count, noun in ((len(shown[kind]), "face"), (len(found) - len(shown[kind]), "hidden face")):
+                    if count:
+                        words.append(f"{counted(count, noun)} {problems.KINDS[kind].word}")
             told.append((name, ", ".join(words) or "no problems"))
         self._written = told

@@ -589,6 +589,19 @@ class Broken(unittest.TestCase):
         bpy.ops.object.mode_set(mode="OBJECT")
         self.assertIn("no problems", messages(self.on_a_clean_mesh))
 
+    def test_what_is_hidden_is_not_selected_and_told_as_such(self):
+        self.change(lambda uvs: 0 * uvs + 0.5, range(84, 102))
+        for face in range(90, 102):
+            self.obj.data.polygons[face].hide = True
+        told = messages(bpy.ops.uv.atlas_refine_select_problems)
+        self.assertIn("Loose: 6 faces not unwrapped, 12 hidden faces not unwrapped", told)
+        self.assertEqual(self.selected(), list(range(84, 90)))
+        for polygon in self.obj.data.polygons:
+            polygon.hide = True
+        told = messages(bpy.ops.uv.atlas_refine_select_problems)
+        self.assertIn("Loose: 18 hidden faces not unwrapped", told)
+        self.assertEqual(self.selected(), [])
+
     def on_a_clean_mesh(self):
         add_mesh(name="Clean")
         return bpy.ops.uv.atlas_refine_select_problems()

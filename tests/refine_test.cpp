@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "charts.h"
+#include "geometry/plane.h"
 #include "refine_checks.h"
 #include "shapes.h"
 #include "small_atlases.h"
@@ -425,6 +426,36 @@ TEST(Refine, StoppedAtOnceItKeepsTheInputOrWhatIsBetter) {
       EXPECT_EQ(result.corner_uvs, atlas.corner_uvs);
     }
   }
+}
+
+/// A plus of five squares; onto each side of its border a triangle is put whose third corner is the side's middle.
+Atlas plus_with_flat_triangles() {
+  const std::vector<Vec3> corners = {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {3, 1, 0}, {3, 2, 0}, {2, 2, 0},
+                                     {2, 3, 0}, {1, 3, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}, {1, 1, 0}};
+  std::vector<Vec3> positions = corners;
+  std::vector<std::vector<int>> faces = {{0, 1, 2, 11}, {2, 3, 4, 5}, {5, 6, 7, 8}, {8, 9, 10, 11}, {11, 2, 5, 8}};
+  for (int k = 0; k < 12; ++k) {
+    const int next = (k + 1) % 12;
+    positions.emplace_back(0.5 * (corners[k] + corners[next]));
+    faces.push_back({next, k, 12 + k});
+  }
+  return flat_atlas(positions, faces);
+}
+
+TEST(Refine, FacesWithoutAreaAreNotBlownUpToHoldTheBound) {
+  const Atlas atlas = plus_with_flat_triangles();
+  const RefineResult result = refine(atlas, {.pe_bound = 0.75});
+  EXPECT_GE(result.after.pe, 0.75);
+  double flat = 0, all = 0;
+  for (const Chart& chart : testing::charts_of(with_corner_uvs(atlas, result.corner_uvs))) {
+    all += uv_area(chart);
+    for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+      const Triangle& v = chart.triangles[t];
+      const double area = 0.5 * doubled_area(chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]]);
+      if (chart.triangle_faces[t] >= 5) flat += area;
+    }
+  }
+  EXPECT_LT(flat, 0.03 * all);
 }
 
 TEST(Refine, EveryStageIsDrawn) {

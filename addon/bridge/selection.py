@@ -64,10 +64,11 @@ def select_in_steps(obj, uv_map, wanted):
             if number % FACES_OF_A_STEP == 0:
                 yield
     for index, face in enumerate(mesh.faces):
-        if index in wanted and not face.hide:
+        chosen = index in wanted and not face.hide
+        if chosen:
             face.select_set(True)
         for loop in face.loops:
-            versions.select_uv(loop, layer, index in wanted)
+            versions.select_uv(loop, layer, chosen)
         if index % FACES_OF_A_STEP == 0:
             yield
     mesh.select_flush_mode()

@@ -14,6 +14,7 @@ _WORDS = {
     "packing efficiency": "texture use",
     "E_d": "distortion",
     "the gap must lie in [0, 0.1] of the box": "the margin is more than a tenth of the texture",
+    " charts at the bound ": " charts at a texture use of ",
     "charts of several groups": "charts of several materials",
 }
 _GAP = re.compile(r"\bgap\b")

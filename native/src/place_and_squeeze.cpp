@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "atlas_refine/error.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
+#include "pack/room_for_gap.h"
 #include "placing.h"
 #include "reduce/goal.h"
 #include "reduce/relax_apart.h"
@@ -36,7 +39,7 @@ std::optional<PlacedCharts> own_layout(const Refinement& run, const std::vector<
       for (Vec2& uv : chart.uvs) uv *= scale;
     }
   }
-  if (!gap_kept(own, freedom, gap, aspect)) return std::nullopt;
+  if (!gap_kept(run, own, freedom, gap)) return std::nullopt;
   return own;
 }
 
@@ -138,26 +141,32 @@ Solution cut_solution(const CutAtlas& atlas, const ReduceResult& result, const G
   return out;
 }
 
-/// Borders that touch at a vertex (a pinch) may stay so where charts are but moved; no barrier can start from contact. The parted
-/// charts get the places of those that they were. True where there are any.
-bool part_pinches(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts, PlacedCharts& placed) {
-  bool parted = false;
+/// Borders that touch at a vertex (a pinch) may stay so where charts are but moved; no barrier can start from contact. Parts them
+/// in `charts`, and gives back the charts as they were, by their place there.
+std::map<std::size_t, Chart> part_pinches(const Refinement& run, const Freedoms& freedom, std::vector<Chart>& charts) {
+  std::map<std::size_t, Chart> whole;
   for (std::size_t c = 0; c < charts.size(); ++c) {
     if (!bends(freedom, c) || certify_charts({charts[c]}).valid()) continue;
-    Chart mended = made_valid(run, charts[c]);
-    std::vector<Vec2> in_place = moved_likewise(mended.uvs, charts[c].uvs, placed.charts[c].uvs);
-    charts[c] = placed.charts[c] = std::move(mended);
-    placed.charts[c].uvs = std::move(in_place);
-    parted = true;
+    whole.emplace(c, std::exchange(charts[c], made_valid(run, charts[c])));
   }
-  return parted;
+  return whole;
 }
 
-/// Charts that were changed where they lie are still the gap apart, and in their frame if they have one.
-bool still_apart(const Refinement& run, const Placing& placing, const Freedoms& freedom) {
-  const PlacedCharts& placed = placing.placed;
-  return !placed.has_frame() && gap_kept(placed, freedom, placing.gap, run.options.box_aspect) &&
-         certify_charts(placed.charts, {}, freedom).valid();
+/// Puts pinched charts back, as they were, where they lie parted, if they are valid and the gap apart there too; in a frame they
+/// may be out of it.
+bool stay_whole(const Refinement& run, const std::map<std::size_t, Chart>& pinched, const std::vector<std::vector<int>>& points,
+                const Freedoms& freedom, std::vector<Chart>& charts, Placing& placing) {
+  if (placing.placed.has_frame()) return false;
+  PlacedCharts whole = placing.placed;
+  for (const auto& [c, chart] : pinched) {
+    whole.charts[c] = chart;
+    whole.charts[c].uvs = moved_likewise(chart.uvs, charts[c].uvs, placing.placed.charts[c].uvs);
+  }
+  const bool holds = holds_bound(run, whole, kStoredSpare) && gap_kept(run, whole, freedom, placing.gap);
+  if (!holds || !certify_charts(whole.charts, points, freedom).valid()) return false;
+  for (const auto& [c, chart] : pinched) charts[c] = chart;
+  placing.placed = std::move(whole);
+  return true;
 }
 
 /// Slits that would close where they are stored are parted: nothing bends these charts any more.
@@ -181,6 +190,20 @@ void require_no_needles(const std::vector<Chart>& pieces) {
   if (!needles.charts.empty()) throw needles;
 }
 
+/// Refuses at once what bending cannot bring: charts of about their areas have no room for the gap at the bound.
+void require_room_for_gap(const Refinement& run, const std::vector<Chart>& pieces, const Freedoms& freedom) {
+  constexpr double kAreasChange = 1.05;  // as charts bend
+  const RefineOptions& options = run.options;
+  if (!options.gap || options.box_aspect == 0 || options.best_effort || any_fixed(freedom) || pieces.size() == 1) return;
+  const double most = RoomForGap(pieces, *options.gap, options.box_aspect).most_pe();
+  if (options.pe_bound <= kAreasChange * most) return;
+  const double of_asked = run.asked.pe_bound / options.pe_bound;  // of the whole texture
+  throw RefineError(ErrorCode::BoundNotReached, "pack",
+                    "the gap leaves no room for " + std::to_string(pieces.size()) + " charts at the bound " +
+                        number_text("%g", run.asked.pe_bound) + ": with it they cover less than " +
+                        number_text("%.2f", of_asked * most));
+}
+
 }  // namespace
 
 Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool keeps_place, const ProgressRange& range) {
@@ -190,10 +213,15 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
   std::vector<Chart> pieces = meshes_of(atlas);
   run.journal.begin_stage("pack", range.part(0, 0.25));
   require_no_needles(pieces);
+  require_room_for_gap(run, pieces, freedom);
   std::vector<Gap> gaps = gaps_of(run, pieces, freedom);
   const double good_enough = options.relax && !atlas.seams.empty() ? kNearly * options.pe_bound : options.pe_bound;
+  const Journal::Mark before = run.journal.mark();
+  const auto pinched = part_pinches(run, freedom, pieces);
   Placing placing = place_with(run, pieces, freedom, good_enough, gaps);
   PlacedCharts& placed = placing.placed;
+  const auto only_moves = [&] { return holds_bound(run, placed, kStoredSpare) && !(options.relax && !none_bends(freedom)); };
+  if (!pinched.empty() && only_moves() && stay_whole(run, pinched, points, freedom, pieces, placing)) run.journal.back_to(before);
   if (const Validity valid = certify_charts(placed.charts, points, freedom); !valid.valid())
     throw RefineError(ErrorCode::BadInput, "pack", "charts could not be placed apart: " + valid.problem, valid.chart, valid.face);
   if (holds_bound(run, placed, kStoredSpare) && part_slits(run, placed, points, freedom, pieces))
@@ -201,22 +229,16 @@ Solution place_and_squeeze(const Refinement& run, const CutAtlas& atlas, bool ke
   run.journal.show("placed", placed.charts);
   Solution out{.atlas = with_uvs(atlas, uvs_of(placed.charts)), .gap = placing.gap};
   out.atlas.frame = placed.frame;
-  if (holds_bound(run, placed, kStoredSpare) && !(options.relax && !none_bends(freedom))) {
+  if (only_moves()) {
     const bool spares_bending = !none_bends(freedom) && out.gap.value < gaps.front().value;
     warn_of_gap(run, out.gap, spares_bending ? "with a larger one charts would have to be bent" : kNoRoom);
     return out;
   }
 
-  const bool parted = part_pinches(run, freedom, pieces, placed);
-  if (parted && !still_apart(run, placing, freedom)) placing = place_with(run, pieces, freedom, good_enough, gaps);
   gaps = gaps_to_squeeze_with(run, pieces, freedom, placing, gaps);
   // A wider gap than is to be kept would only be more to be squeezed.
   if (rather_moves(run, pieces.size()) && placing.gap.value != gaps.front().value)
     placed = place(run, pieces, freedom, gaps.front(), good_enough);
-  if (parted) {
-    out.atlas = with_uvs(std::move(out.atlas), uvs_of(placed.charts));
-    out.atlas.frame = placed.frame;
-  }
   run.journal.begin_stage("squeeze", range.part(0.25, 1));
   std::optional<PlacedCharts> own;
   if (keeps_place && !options.align_axes && certify_charts(pieces, {}, freedom).valid())

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "atlas_refine/error.h"
 #include "measure/certificate.h"
@@ -16,6 +17,11 @@ namespace {
 
 Box box_of(const PlacedCharts& placed, double aspect) {
   return placed.has_frame() ? Box{Vec2::Zero(), placed.frame} : box_of_aspect(uv_box(placed.charts), aspect);
+}
+
+/// The PE beyond which the box that the gap is a part of is larger than the charts'.
+double most_pe(const Refinement& run) {
+  return run.input.gap_of_texture ? run.options.pe_bound : std::numeric_limits<double>::infinity();
 }
 
 /// The box that charts need grows with their area and half the gap around them: PE at another gap, from that at one.
@@ -70,8 +76,10 @@ double packing_efficiency(const PlacedCharts& placed, double aspect) {
   return area / box.area();
 }
 
-bool gap_kept(const PlacedCharts& placed, const Freedoms& freedom, const Gap& gap, double aspect) {
-  return gap_between_charts(placed.charts, freedom) >= kStartGap * gap.length(box_of(placed, aspect).size());
+bool gap_kept(const Refinement& run, const PlacedCharts& placed, const Freedoms& freedom, const Gap& gap) {
+  const double aspect = run.options.box_aspect, pe = packing_efficiency(placed, aspect);
+  const double larger = std::sqrt(std::max(1.0, pe / most_pe(run)));
+  return gap_between_charts(placed.charts, freedom) >= kStartGap * larger * gap.length(box_of(placed, aspect).size());
 }
 
 bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare) {
@@ -91,6 +99,7 @@ PlacedCharts place(const Refinement& run, const std::vector<Chart>& charts, cons
   const PlaceOptions options{.gap = gap,
                              .box_aspect = run.options.box_aspect,
                              .target_pe = good_enough,
+                             .most_pe = most_pe(run),
                              .seed = run.options.seed,
                              .threads = run.threads,
                              .search = search,

@@ -23,7 +23,7 @@ std::vector<Chart> movable_of(const std::vector<Chart>& charts, const Freedoms& 
 DistortionLimits limits_of(const RefineOptions& options);
 
 double packing_efficiency(const PlacedCharts& placed, double aspect);
-bool gap_kept(const PlacedCharts& placed, const Freedoms& freedom, const Gap& gap, double aspect);
+bool gap_kept(const Refinement& run, const PlacedCharts& placed, const Freedoms& freedom, const Gap& gap);
 /// They reach the bound times `spare`, within the limits of distortion.
 bool holds_bound(const Refinement& run, const PlacedCharts& placed, double spare = 1);
 

@@ -51,16 +51,22 @@ std::optional<Outcome> refine_mendable(const InputAtlas& whole, const RefineOpti
                                        std::optional<RefineError>& failure) {
   const Journal::Mark mark = journal.mark();
   journal.of_box(options_of_group(of_all, part.group).box_aspect);
+  bool ample = of_all.relax || of_all.seams != Seams::None;
   while (!part.charts.empty()) {
     RefineOptions options = options_of_group(of_all, part.group);
     InputAtlas input = part_of(whole, part.charts, options.box_aspect);
     input.origin = origin_of(part, options);
-    options = settle_density(std::move(options), input, journal);
+    options = settle_density(std::move(options), input, journal, ample);
     put_in_texture(input, options);
     try {
       return refine_one(input, options, range, monitor, journal);
     } catch (const RefineError& error) {
       if (error.code() == ErrorCode::Cancelled) throw;
+      if (error.code() == ErrorCode::NotCertified && input.gap_of_texture) {
+        ample = true;
+        journal.back_to(mark);
+        continue;
+      }
       if (!failure) failure = named(error, part, options);
       journal.back_to(mark);
       journal.warnings.push_back("keeps its UVs: " + std::string(error.what()));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "charts.h"
+#include "geometry/boundary.h"
 #include "measure/distortion.h"
 #include "shapes.h"
 
@@ -21,8 +22,10 @@ Chart plate(double lift) {
   return testing::charts_of(shapes::mesh(polygon, kFine, lift)).at(0);
 }
 
+Sample sample_of(const Chart& chart) { return sample_vertices(chart, boundary_flags(chart), kSpacing); }
+
 Decimation decimated(const Chart& chart) {
-  auto out = decimate(chart, kSpacing);
+  auto out = decimate(chart, sample_of(chart));
   EXPECT_TRUE(out);
   return std::move(*out);
 }
@@ -93,7 +96,8 @@ TEST(Decimate, WhereverTheCoarseTrianglesArePositiveAllAre) {
 }
 
 TEST(Decimate, NothingWhereAllVerticesAreNearTheBoundary) {
-  EXPECT_FALSE(decimate(testing::charts_of(shapes::mesh(shapes::rectangle(1, 0.03), 0.01, 0)).at(0), kSpacing));
+  const Chart strip = testing::charts_of(shapes::mesh(shapes::rectangle(1, 0.03), 0.01, 0)).at(0);
+  EXPECT_FALSE(decimate(strip, sample_of(strip)));
 }
 
 }  // namespace

@@ -93,6 +93,35 @@ def test_a_border_that_leaves_less_than_the_bound_is_refused():
     assert caught.value.code == "bound_not_reached"
 
 
+def many(count, origin=(0.0, 0.0)):
+    """Rectangles of 1 to 6 quads a side."""
+    rng = np.random.default_rng(1)
+    sides = [tuple(int(side) for side in rng.integers(1, 7, 2)) for _ in range(count)]
+    return shapes.join(*(shapes.grid(*side, origin=(8.0 * (k % 20), 8.0 * (k // 20))) for k, side in enumerate(sides)))
+
+
+def test_charts_whose_size_leaves_room_for_a_wide_gap_are_only_moved():
+    """Grown by the gap they take .86 of the texture, and have no more of it than they need."""
+    arrays = many(220)
+    pixels, size, share = 31, 1024, 0.2
+    density = (share / (len(arrays[1]) - 1)) ** 0.5
+    gap = {"gap": pixels / size, "gap_unit": "long_side"}
+    result = in_texture(arrays, pe_bound=0.8, uv_density=density, box_aspect=1.0, **gap)
+    assert result.intervention == "moved"
+    assert result.after.pe_fixed_aspect == pytest.approx(share, rel=1e-4)
+    assert min(result.corner_uvs.min(), (1 - result.corner_uvs).min()) * size >= pixels
+    assert result.after.distortion == pytest.approx(1.0)
+
+
+def test_a_gap_without_room_at_the_bound_is_refused_by_what_can_be_had():
+    arrays = many(220)
+    with pytest.raises(
+        atlas_refine.AtlasRefineError, match="220 charts at the bound 0.8: with it they cover less than 0.6"
+    ) as caught:
+        in_texture(arrays, pe_bound=0.8, gap=16 / 1024, gap_unit="long_side", box_aspect=1.0)
+    assert caught.value.code == "bound_not_reached"
+
+
 def test_charts_of_faces_are_the_reports():
     positions, offsets, corners, uvs = shapes.loose()
     charts = atlas_refine.charts_of_faces(positions, offsets, corners, uvs)

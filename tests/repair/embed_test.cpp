@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "charts.h"
+#include "coarsen/coarse_atlas.h"
 #include "geometry/tutte.h"
 #include "measure/certificate.h"
 #include "shapes.h"
@@ -124,8 +125,10 @@ TEST(Embed, OfManyTrianglesAllPartsHaveTheirSizesFromTheStart) {
   Monitor monitor;
   const auto start = spread_out(tube, 2, monitor);
   ASSERT_TRUE(start);
-  testing::expect_certified({*start});
-  EXPECT_LT(dirichlet_sums(*start).best_energy(), 1.01);
+  testing::expect_certified({start->chart});
+  EXPECT_LT(dirichlet_sums(start->chart).best_energy(), 1.01);
+  ASSERT_TRUE(start->sample);
+  EXPECT_EQ(start->sample->vertices, sample_of_coarse(start->chart, spacing_inside(tube.surface.area())).vertices);
 }
 
 TEST(Embed, ManyHolesStayOpen) {

@@ -122,6 +122,25 @@ TEST(BlockCholesky, SolvesAPatternThatGrewAndShrank) {
   }
 }
 
+TEST(BlockCholesky, ValuesMayBeSetBeforeThePatternIsAnalysed) {
+  const int side = 20, n = side * side;
+  std::vector<std::vector<Vec2>> solutions;
+  for (const bool before : {false, true}) {
+    Rng rng(9);
+    BlockCholesky matrix;
+    for (const int last_node : {-1, n - 1, n - 1}) {  // also where the order is kept
+      matrix.set_pattern(n, grid_edges(side), last_node);
+      if (!before) matrix.analyse_pattern();
+      matrix.set_zero();
+      set_random_values(rng, matrix);
+      if (before) matrix.analyse_pattern();
+      ASSERT_TRUE(matrix.factor());
+      matrix.solve(solutions.emplace_back(random_side(n, 3)));
+    }
+  }
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(solutions[k], solutions[k + 3]) << "pattern " << k;
+}
+
 TEST(BlockCholesky, TwoSidesAtOnceAreTheTwoAlone) {
   BlockCholesky m = random_matrix(80, 6, 3);
   ASSERT_TRUE(m.factor());

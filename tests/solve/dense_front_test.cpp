@@ -30,11 +30,11 @@ struct Factored {
   Front front() { return {panel.data(), static_cast<int>(panel.rows()), static_cast<int>(panel.cols())}; }
 };
 
-Factored factored(const FrontKernels& kernels, const Eigen::MatrixXd& matrix, int pivots) {
+Factored factored(const FrontKernels& kernels, const Eigen::MatrixXd& matrix, int pivots, int threads = 1) {
   const Eigen::Index below = matrix.rows() - pivots;
   Factored out{matrix.leftCols(pivots), Eigen::MatrixXd::Zero(below, below), false};
   std::vector<double> packed(packed_size(out.front()));
-  out.good = kernels.factor(out.front(), out.update.data(), packed.data());
+  out.good = kernels.factor(out.front(), {out.update.data(), packed.data(), threads});
   return out;
 }
 
@@ -69,6 +69,19 @@ TEST(DenseFront, EverySetOfInstructionsGivesTheSameBits) {
       const std::vector<Eigen::MatrixXd> all = {lower(front.panel), lower(front.update), a, b};
       if (first.empty()) first = all;
       for (std::size_t k = 0; k < all.size(); ++k) EXPECT_EQ(all[k], first[k]);
+    }
+  }
+}
+
+TEST(DenseFront, IsDividedIntoTheSameBits) {
+  const Eigen::MatrixXd matrix = random_positive(700);
+  for (const int pivots : {160, 396, 700}) {
+    Factored alone = factored(best_kernels(), matrix, pivots);
+    for (const int threads : {2, 8}) {
+      Factored divided = factored(best_kernels(), matrix, pivots, threads);
+      ASSERT_TRUE(divided.good);
+      EXPECT_EQ(lower(divided.panel), lower(alone.panel)) << threads << " threads";
+      EXPECT_EQ(lower(divided.update), lower(alone.update)) << threads << " threads";
     }
   }
 }

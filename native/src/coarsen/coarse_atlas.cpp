@@ -39,7 +39,8 @@ double spacing_inside(double area) {
   return std::sqrt(4 / std::sqrt(3.0) * area / kInside);  // edges of equilateral triangles
 }
 
-std::optional<CoarseAtlas> coarsen(const std::vector<Chart>& charts, const Objective& objective, const Freedoms& freedom) {
+std::optional<CoarseAtlas> coarsen(const std::vector<Chart>& charts, const Objective& objective, const Freedoms& freedom,
+                                   const Sample* of_only_chart) {
   const PhaseScope scope(Phase::Coarsen);
   const int vertices = bending_vertices(charts, freedom);
   if (vertices < kSmall) return std::nullopt;
@@ -49,7 +50,7 @@ std::optional<CoarseAtlas> coarsen(const std::vector<Chart>& charts, const Objec
   for (std::size_t c = 0; c < charts.size(); ++c) {
     auto& coarse = out.charts.emplace_back();
     if (!bends(freedom, c)) continue;
-    coarse = coarsen(charts[c], spacing);
+    coarse = coarsen(charts[c], of_only_chart ? *of_only_chart : sample_of_coarse(charts[c], spacing));
     if (coarse) kept -= charts[c].vertex_count() - coarse->mesh.vertex_count();
   }
   if (kept > kMostKept * vertices) return std::nullopt;

@@ -18,7 +18,9 @@ struct CoarseAtlas {
 double spacing_inside(double area);
 
 /// Nothing where the atlas is small, or too little of it can be coarsened. Charts that do not bend stay as they are.
-std::optional<CoarseAtlas> coarsen(const std::vector<Chart>& charts, const Objective& objective, const Freedoms& freedom);
+/// `of_only_chart`: where there is but one, and it is known.
+std::optional<CoarseAtlas> coarsen(const std::vector<Chart>& charts, const Objective& objective, const Freedoms& freedom,
+                                   const Sample* of_only_chart = nullptr);
 
 /// The coarse charts where the fine ones lie.
 PlacedCharts restricted(const CoarseAtlas& coarse, const PlacedCharts& fine);

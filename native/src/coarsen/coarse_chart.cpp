@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "coarsen/sample_vertices.h"
 #include "geometry/boundary.h"
 #include "geometry/rest_triangle.h"
 #include "geometry/triangulate_region.h"
 #include "measure/distortion.h"
+#include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
@@ -120,9 +120,13 @@ Surface surface_of(const Chart& chart, const CoarseChart& coarse) {
 
 }  // namespace
 
-std::optional<CoarseChart> coarsen(const Chart& chart, double spacing) {
+Sample sample_of_coarse(const Chart& chart, double spacing) {
+  const PhaseScope scope(Phase::Coarsen);
+  return sample_vertices(chart, held_vertices(chart), spacing);
+}
+
+std::optional<CoarseChart> coarsen(const Chart& chart, Sample sample) {
   const std::vector<char> held = held_vertices(chart);
-  Sample sample = sample_vertices(chart, held, spacing);
   if (static_cast<double>(sample.vertices.size()) > kMostKept * chart.vertex_count()) return std::nullopt;
   CoarseChart out;
   out.kept = std::move(sample.vertices);

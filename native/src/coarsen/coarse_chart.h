@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "coarsen/locate.h"
+#include "coarsen/sample_vertices.h"
 #include "geometry/chart.h"
 #include "solve/objective.h"
 
@@ -15,9 +16,12 @@ struct CoarseChart {
   std::vector<Place> places;  ///< per vertex of the fine chart: where it lies
 };
 
-/// Vertices inside are about `spacing` apart on the surface, nearer near the boundary. Nothing where less than half of the
-/// chart's vertices would be saved. The chart must be free of flips and crossings.
-std::optional<CoarseChart> coarsen(const Chart& chart, double spacing);
+/// The vertices that a coarse chart keeps. They depend on no UVs.
+Sample sample_of_coarse(const Chart& chart, double spacing);
+
+/// The chart on the vertices of its sample. Nothing where less than half of its vertices would be saved. It must be free of flips
+/// and crossings.
+std::optional<CoarseChart> coarsen(const Chart& chart, Sample sample);
 
 /// The part of an objective that stands for the elements of one chart: its triangles, then its guards.
 struct ChartObjective {

@@ -2,11 +2,13 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+#include <utility>
 
 #include "coarsen/coarse_chart.h"
 #include "geometry/guards.h"
 #include "geometry/plane.h"
 #include "solve/symmetric_dirichlet.h"
+#include "support/gathered.h"
 
 namespace atlas_refine {
 namespace {
@@ -35,18 +37,24 @@ Mat2 geometric_mean(const Mat2& a, const Mat2& b) {
 }
 
 std::vector<Average> averages(const Chart& chart, const CoarseChart& coarse, const Locator& locator, const ChartObjective& fine) {
+  std::vector<std::pair<Triangle, double>> elements;  // and what counts of their areas
+  for_each_element(chart, [&](const Triangle& t, const RestTriangle&, double share, int) { elements.emplace_back(t, share); });
+  constexpr int kGrain = 2048;
+  const auto parts =
+      gathered<std::pair<int, Average>>(static_cast<int>(elements.size()), kGrain, [&](int begin, int end, auto& out) {
+        for (int e = begin; e < end; ++e) {
+          const auto& [t, share] = elements[e];
+          const Vec2 &a = chart.uvs[t[0]], &b = chart.uvs[t[1]], &c = chart.uvs[t[2]];
+          const double area = 0.5 * share * doubled_area(a, b, c);
+          if (!(area > 0)) continue;
+          const Mat2 j = jacobian(fine.inverse_edges[e], a, b, c);
+          const Mat2 square = j * j.transpose();
+          out.emplace_back(locator.locate((a + b + c) / 3, coarse.places[t[0]].triangle).triangle,
+                           Average{area, fine.weight[e], fine.weight[e] * square, fine.weight[e] * square.inverse()});
+        }
+      });
   std::vector<Average> out(coarse.mesh.triangles.size());
-  std::size_t element = 0;
-  for_each_element(chart, [&](const Triangle& t, const RestTriangle&, double share, int) {
-    const std::size_t e = element++;
-    const Vec2 &a = chart.uvs[t[0]], &b = chart.uvs[t[1]], &c = chart.uvs[t[2]];
-    const double area = 0.5 * share * doubled_area(a, b, c);
-    if (!(area > 0)) return;
-    const Mat2 j = jacobian(fine.inverse_edges[e], a, b, c);
-    const Mat2 square = j * j.transpose();
-    out[locator.locate((a + b + c) / 3, coarse.places[t[0]].triangle).triangle] +=
-        {area, fine.weight[e], fine.weight[e] * square, fine.weight[e] * square.inverse()};
-  });
+  for (const auto& [triangle, part] : parts) out[triangle] += part;
   return out;
 }
 

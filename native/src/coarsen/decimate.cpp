@@ -12,7 +12,6 @@
 #include <tuple>
 #include <utility>
 
-#include "coarsen/sample_vertices.h"
 #include "geometry/boundary.h"
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
@@ -53,7 +52,14 @@ struct Fan {
 };
 
 Mesh mesh_of(const Chart& chart) {
+  constexpr int kSpare = 4;  // triangles that a vertex may gain before its list has to grow
   Mesh out{.corners = chart.triangles, .lengths = {}, .around = std::vector<std::vector<int>>(chart.vertex_count())};
+  std::vector<int> count(chart.vertex_count(), kSpare);
+  for (const Triangle& t : chart.triangles) {
+    for (const int v : t) ++count[v];
+  }
+  for (int v = 0; v < chart.vertex_count(); ++v) out.around[v].reserve(count[v]);
+  out.lengths.reserve(chart.triangles.size());
   for (int t = 0; t < static_cast<int>(chart.triangles.size()); ++t) {
     out.lengths.push_back(side_lengths(chart.surface[t]));
     for (const int v : chart.triangles[t]) out.around[v].push_back(t);
@@ -362,9 +368,8 @@ bool put_back_pass(const Decimation& decimation, int begin, int end, int threads
 
 }  // namespace
 
-std::optional<Decimation> decimate(const Chart& chart, double spacing) {
+std::optional<Decimation> decimate(const Chart& chart, const Sample& sample) {
   const PhaseScope scope(Phase::Coarsen);
-  const Sample sample = sample_vertices(chart, boundary_flags(chart), spacing);
   std::vector<char> kept(chart.vertex_count(), 0);
   for (const int v : sample.vertices) kept[v] = 1;
   std::vector<int> others;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "coarsen/sample_vertices.h"
 #include "geometry/chart.h"
 
 namespace atlas_refine {
@@ -26,9 +27,9 @@ struct Decimation {
   std::vector<float> spokes, rims;
 };
 
-/// Keeps the boundary as it is, and vertices inside about `spacing` apart on the surface, nearer near the boundary. Lengths
-/// across what was removed are told where its triangles are laid flat around it. Nothing where less than half of the vertices go.
-std::optional<Decimation> decimate(const Chart& chart, double spacing);
+/// Keeps the vertices of the sample. Lengths across what was removed are told where its triangles are laid flat around it.
+/// Nothing where less than half of the vertices go.
+std::optional<Decimation> decimate(const Chart& chart, const Sample& sample);
 
 /// UVs of the chart from positive ones of the decimated mesh: each vertex comes back where its triangles are positive and their
 /// distortion is least. Nothing where rounding left no such place.

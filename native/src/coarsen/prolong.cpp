@@ -11,8 +11,11 @@
 #include "geometry/guards.h"
 #include "solve/foldover.h"
 #include "solve/newton.h"
+#include "support/gathered.h"
+#include "support/parallel.h"
 #include "support/profile.h"
 #include "support/quantile.h"
+#include "support/thread_pool.h"
 
 namespace atlas_refine {
 namespace {
@@ -23,6 +26,8 @@ constexpr int kOwnSweeps = 6;       // without those around them
 constexpr double kFirstBlur = 0.3;  // epsilon of the energy for flipped elements,
 constexpr double kFocus = 0.7;      // falls by this factor in every sweep,
 constexpr double kLeastBlur = 0.1;  // to this: with less, steps of single vertices get stuck between flipped ones
+
+constexpr int kGrain = 4096;  // elements
 
 /// Elements of a chart in solver units.
 struct Patch {
@@ -51,6 +56,7 @@ std::vector<Triangle> elements_of(const Chart& chart) {
 
 std::vector<Vec2> interpolated(const CoarseChart& coarse, const std::vector<Vec2>& coarse_uvs) {
   std::vector<Vec2> out;
+  out.reserve(coarse.places.size());
   for (const Place& place : coarse.places) {
     const Triangle& t = coarse.mesh.triangles[place.triangle];
     Vec2 sum = Vec2::Zero();
@@ -134,9 +140,11 @@ void find_stars(Patch& patch) {
 /// Of elements with more energy than `most`; true where none is left flipped.
 bool mend(const std::vector<double>& most, Patch& patch) {
   const auto is_good = [&](int e) { return patch.energy_of(e) <= most[e]; };
-  std::vector<int> bad(patch.elements.size());
-  std::iota(bad.begin(), bad.end(), 0);
-  std::erase_if(bad, is_good);
+  std::vector<int> bad = gathered<int>(static_cast<int>(patch.elements.size()), kGrain, [&](int begin, int end, auto& out) {
+    for (int e = begin; e < end; ++e) {
+      if (!is_good(e)) out.push_back(e);
+    }
+  });
   if (bad.empty()) return true;
   find_stars(patch);
   double epsilon = kFirstBlur;
@@ -152,8 +160,10 @@ bool mend(const std::vector<double>& most, Patch& patch) {
 }
 
 std::vector<double> energies(const Patch& patch) {
-  std::vector<double> out;
-  for (int e = 0; e < static_cast<int>(patch.elements.size()); ++e) out.push_back(patch.energy_of(e));
+  std::vector<double> out(patch.elements.size());
+  parallel_ranges(static_cast<int>(out.size()), present_threads(), kGrain, [&](int begin, int end) {
+    for (int e = begin; e < end; ++e) out[e] = patch.energy_of(e);
+  });
   return out;
 }
 

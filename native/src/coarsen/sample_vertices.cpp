@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kGrowth = 0.7;  // of the distance that samples keep, per length away from the boundary
 
-/// Edges from vertex v: entries [first[v], first[v + 1]); inner ones come twice. Lengths are those on the surface.
+/// Edges from vertex v: entries [first[v], first[v + 1]), each once. Lengths are those on the surface.
 struct VertexGraph {
   std::vector<int> first, neighbours;
   std::vector<double> lengths;
@@ -30,9 +30,17 @@ struct VertexGraph {
 
 VertexGraph graph_of(const Chart& chart) {
   VertexGraph out;
+  // Triangles on both sides of an edge name it from both ends; those on the boundary have the other end besides.
+  std::vector<int> before(chart.vertex_count(), -1);  // in its boundary loop
   out.first.assign(chart.vertex_count() + 1, 0);
+  for (const std::vector<int>& loop : chart.boundary_loops) {
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      before[loop[(k + 1) % loop.size()]] = loop[k];
+      ++out.first[loop[k] + 1];
+    }
+  }
   for (const Triangle& t : chart.triangles) {
-    for (const int v : t) out.first[v + 1] += 2;
+    for (const int v : t) ++out.first[v + 1];
   }
   for (int v = 0; v < chart.vertex_count(); ++v) out.first[v + 1] += out.first[v];
   std::vector<int> next(out.first.begin(), out.first.end() - 1);
@@ -42,10 +50,12 @@ VertexGraph graph_of(const Chart& chart) {
     const std::array<double, 3> lengths = side_lengths(chart.surface[t]);
     for (int k = 0; k < 3; ++k) {
       const int a = chart.triangles[t][k], b = chart.triangles[t][(k + 1) % 3];
-      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+      const auto add = [&](int from, int to) {
         out.neighbours[next[from]] = to;
         out.lengths[next[from]++] = lengths[k];
-      }
+      };
+      add(a, b);
+      if (before[b] == a) add(b, a);
     }
   }
   return out;

@@ -13,8 +13,7 @@ struct Sample {
 };
 
 /// Vertices inside keep a distance from each other, along edges on the surface, that grows from the boundary's edge lengths up to
-/// `spacing`.
-/// Those inside that are `held` are taken too.
+/// `spacing`. Those inside that are `held` are taken too.
 Sample sample_vertices(const Chart& chart, const std::vector<char>& held, double spacing);
 
 }  // namespace atlas_refine

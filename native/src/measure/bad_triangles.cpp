@@ -9,7 +9,10 @@
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
 #include "geometry/rest_triangle.h"
+#include "support/gathered.h"
+#include "support/parallel.h"
 #include "support/quantile.h"
+#include "support/thread_pool.h"
 
 namespace atlas_refine {
 namespace {
@@ -18,6 +21,7 @@ namespace {
 constexpr double kDrawnOut = 1.2;
 /// Of the chart's size: triangles lower than that may flip where the chart is moved.
 constexpr double kRounding = 1e-13;
+constexpr int kGrain = 4096;  // triangles
 
 /// Logarithms of the largest and the least stretch of a positive triangle against the surface.
 std::array<double, 2> log_stretch(const Chart& chart, std::size_t t) {
@@ -30,33 +34,46 @@ std::array<double, 2> log_stretch(const Chart& chart, std::size_t t) {
   return {std::log(largest), std::log(std::abs(j.determinant()) / largest)};
 }
 
+/// The medians over all but the bad triangles.
+std::array<double, 2> usual_log_stretch(const Chart& chart, const std::vector<char>& bad) {
+  const auto good = gathered<std::array<double, 2>>(static_cast<int>(bad.size()), kGrain, [&](int begin, int end, auto& out) {
+    for (int t = begin; t < end; ++t) {
+      if (!bad[t]) out.push_back(log_stretch(chart, t));
+    }
+  });
+  std::array<std::vector<double>, 2> stretch;
+  for (const auto& own : good) {
+    for (int k = 0; k < 2; ++k) stretch[k].push_back(own[k]);
+  }
+  return {median(stretch[0]), median(stretch[1])};
+}
+
 }  // namespace
 
 std::vector<char> bad_triangles(const Chart& chart) {
   const double least = kRounding * uv_box({chart}).diagonal();
-  std::vector<char> bad;
-  bad.reserve(chart.triangles.size());
-  for (const Triangle& t : chart.triangles) {
-    const Vec2 &a = chart.uvs[t[0]], &b = chart.uvs[t[1]], &c = chart.uvs[t[2]];
-    const double longest = std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-    const bool flat = doubled_area(a, b, c) < longest * std::max(kSliverHeight * longest, least);
-    bad.push_back(flat || orientation(a, b, c) <= 0);
-  }
+  std::vector<char> bad(chart.triangles.size());
+  parallel_ranges(static_cast<int>(bad.size()), present_threads(), kGrain, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const Triangle& t = chart.triangles[k];
+      const Vec2 &a = chart.uvs[t[0]], &b = chart.uvs[t[1]], &c = chart.uvs[t[2]];
+      const double longest = std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+      const bool flat = doubled_area(a, b, c) < longest * std::max(kSliverHeight * longest, least);
+      bad[k] = flat || orientation(a, b, c) <= 0;
+    }
+  });
   return bad;
 }
 
 std::vector<char> misshapen_triangles(const Chart& chart) {
   std::vector<char> bad = bad_triangles(chart);
   std::vector<char> at_bad(chart.vertex_count(), 0);
-  std::array<std::vector<double>, 2> stretch;  // of the good ones
   for (std::size_t t = 0; t < bad.size(); ++t) {
     for (const int v : chart.triangles[t]) at_bad[v] = at_bad[v] || bad[t];
-    if (bad[t]) continue;
-    const auto own = log_stretch(chart, t);
-    for (int k = 0; k < 2; ++k) stretch[k].push_back(own[k]);
   }
-  if (stretch[0].empty() || stretch[0].size() == bad.size()) return bad;
-  const std::array<double, 2> usual{median(stretch[0]), median(stretch[1])};
+  const auto count = std::count(bad.begin(), bad.end(), 1);
+  if (count == 0 || count == static_cast<std::ptrdiff_t>(bad.size())) return bad;
+  const std::array<double, 2> usual = usual_log_stretch(chart, bad);
   for (std::size_t t = 0; t < bad.size(); ++t) {
     const Triangle& v = chart.triangles[t];
     if (bad[t] || (!at_bad[v[0]] && !at_bad[v[1]] && !at_bad[v[2]])) continue;

@@ -14,6 +14,7 @@
 
 #include "geometry/predicates.h"
 #include "measure/boundary_edges.h"
+#include "support/gathered.h"
 #include "support/profile.h"
 
 namespace atlas_refine {
@@ -40,16 +41,26 @@ void note(Validity& validity, const std::string& problem, int chart, int face = 
   validity.face = face;
 }
 
+std::vector<int> triangles_not_positive(const Chart& chart) {
+  constexpr int kGrain = 4096;
+  return gathered<int>(static_cast<int>(chart.triangles.size()), kGrain, [&](int begin, int end, auto& out) {
+    for (int t = begin; t < end; ++t) {
+      const Triangle& v = chart.triangles[t];
+      if (!(orientation(chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]]) > 0)) out.push_back(t);
+    }
+  });
+}
+
 void check_triangles(const std::vector<Chart>& charts, const Freedoms& freedom, Validity& validity) {
   for (std::size_t k = 0; k < charts.size(); ++k) {
     if (is_fixed(freedom, k)) continue;
     const Chart& chart = charts[k];
     int last_face = -1;
-    for (std::size_t t = 0; t < chart.triangles.size(); ++t) {
+    for (const int t : triangles_not_positive(chart)) {
       const Triangle& v = chart.triangles[t];
       const int face = chart.triangle_faces[t];
       const int sign = orientation(chart.uvs[v[0]], chart.uvs[v[1]], chart.uvs[v[2]]);
-      if (sign > 0 || face == last_face) continue;
+      if (face == last_face) continue;
       last_face = face;
       ++validity.flipped_faces;
       const std::string what = sign == 0 ? " has no area in the UV map" : " is flipped in the UV map";

@@ -10,6 +10,8 @@
 #include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
 #include "solve/symmetric_dirichlet.h"
+#include "support/parallel.h"
+#include "support/thread_pool.h"
 
 namespace atlas_refine {
 
@@ -100,10 +102,11 @@ double triangle_stretch(const RestTriangle& rest, const Triangle& triangle, cons
 }
 
 std::vector<double> triangle_stretch(const Chart& chart, double scale) {
-  std::vector<double> out;
-  out.reserve(chart.triangles.size());
-  for (std::size_t t = 0; t < chart.triangles.size(); ++t)
-    out.push_back(triangle_stretch(chart.surface[t], chart.triangles[t], chart.uvs, scale));
+  constexpr int kGrain = 4096;
+  std::vector<double> out(chart.triangles.size());
+  parallel_ranges(static_cast<int>(out.size()), present_threads(), kGrain, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) out[t] = triangle_stretch(chart.surface[t], chart.triangles[t], chart.uvs, scale);
+  });
   return out;
 }
 
@@ -130,8 +133,8 @@ double stretch_99(std::vector<StretchedArea> all) {
 double stretch_99(const std::vector<Chart>& charts, double scale) {
   std::vector<StretchedArea> all;
   for (const Chart& chart : charts) {
-    for (std::size_t t = 0; t < chart.triangles.size(); ++t)
-      all.push_back({triangle_stretch(chart.surface[t], chart.triangles[t], chart.uvs, scale), chart.surface[t].area});
+    const std::vector<double> stretch = triangle_stretch(chart, scale);
+    for (std::size_t t = 0; t < stretch.size(); ++t) all.push_back({stretch[t], chart.surface[t].area});
   }
   return stretch_99(std::move(all));
 }

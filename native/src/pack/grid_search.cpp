@@ -22,6 +22,8 @@ constexpr int kTooManyToCompact = 500;
 constexpr int kFinalists = 4;
 /// Work of making the box of one of them smaller, about 0.15 s, and that of a fair search's only one: of so much a chart.
 constexpr std::int64_t kShrinkingWork = 20'000'000, kFairWork = 10'000'000, kFairWorkOfChart = 500'000;
+/// Of the greedy starts, where all boxes so far are so many times too large: charts will be bent, from any packing about as well.
+constexpr double kPartOfStarts = 0.25, kOutOfReach = 1.3;
 constexpr int kBatch = 32, kRoughBatch = 8;  // greedy starts between two looks at the target
 constexpr int kFew = 3;                      // charts: greedy placements are as good as any
 constexpr int kRoughStarts = 33;             // of rough and fair searches, with that one which tells what they cost
@@ -59,13 +61,11 @@ struct Grid {
 
 Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options, Watch& watch) {
   const int n = static_cast<int>(outlines.size());
-  double dilated_area = area, longest = 0;
+  double dilated_area = area + 0.25 * std::numbers::pi * options.gap * options.gap * n, longest = 0;  // corners add a disk
   for (const Outline& outline : outlines) {
     dilated_area += 0.5 * options.gap * boundary_length(outline);
     longest = std::max(longest, length_of(outline) + options.gap);
   }
-  // Charts much smaller than the gap take a disk of it each, at the least.
-  dilated_area = std::max(dilated_area, 0.25 * std::numbers::pi * options.gap * options.gap * n);
   Grid grid;
   const double cells = n > kTooManyToCompact ? kCellsOfTooMany : n > kManyCharts ? kCellsOfMany : kCells;
   const double least = options.search == PackSearch::Thorough ? kCells : kRoughCells;
@@ -82,13 +82,12 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
   return grid;
 }
 
-/// A random rule: charts by size with some noise, a strip between tall and
-/// wide.
-GreedyRule random_rule(const Grid& grid, const PackOptions& options, int start, double most_area) {
+/// A random rule: charts by size with some noise, a strip between tall and wide, or of many charts one that becomes as high as it
+/// should. `rule`: what all starts share, its strip as wide as a square that holds the charts.
+GreedyRule random_rule(const Grid& grid, const PackOptions& options, int start, GreedyRule rule) {
   const double aspect = options.box_aspect;
   Rng rng(options.seed, 0, start);
   const int n = static_cast<int>(grid.charts.size());
-  GreedyRule rule{.most_area = most_area, .aspect = aspect};
   const double noise = rng.below(4) == 0 ? 0.0 : 0.4;
   std::vector<double> size(n);
   int widest = 0;
@@ -103,10 +102,11 @@ GreedyRule random_rule(const Grid& grid, const PackOptions& options, int start, 
   std::sort(rule.order.begin(), rule.order.end(), [&](int a, int b) { return size[a] != size[b] ? size[a] > size[b] : a < b; });
   // Many charts fill any box; in a square a gap that is a part of its diagonal is the least.
   const bool near_square = aspect == 0 && n > kManyCharts;
-  const double width = aspect > 0    ? rng.uniform(0.95, 1.1) * std::sqrt(aspect)
+  const bool as_before = start > 0 && n > kManyCharts;
+  const double width = aspect > 0    ? (as_before ? rng.uniform(0.98, 1.02) : rng.uniform(0.95, 1.1)) * std::sqrt(aspect)
                        : near_square ? rng.uniform(0.95, 1.1)
                                      : rng.uniform(0.7, 1.4);
-  rule.strip_width = std::max(widest, static_cast<int>(grid.cells_per_side * width));
+  rule.strip_width = std::max(widest, static_cast<int>(rule.strip_width * width));
   rule.height_weight = rng.uniform(0.3, 1.2);
   rule.turn_noise = rng.uniform(0, 0.2);
   rule.many = n > kManyCharts;
@@ -133,11 +133,32 @@ int starts_of(int charts, const PackOptions& options) {
 
 int batch_of(const PackOptions& options) { return options.search == PackSearch::Thorough ? kBatch : kRoughBatch; }
 
-/// In cells. Only the best is wanted of rough layouts: what is larger before all charts are placed is not finished.
-double most_useful(const std::vector<GridLayout>& layouts, const PackOptions& options) {
+double least_area_in_cells(const std::vector<GridLayout>& layouts, const PackOptions& options) {
   double least = INFINITY;
   for (const GridLayout& layout : layouts) least = std::min(least, box_area(layout.width, layout.height, options.box_aspect));
-  return options.search == PackSearch::Thorough ? INFINITY : least;
+  return least;
+}
+
+/// Where the first `count` of so many starts are as good as all of them; `enough` in cells.
+bool suffice(const std::vector<GridLayout>& layouts, int count, int starts, double enough, const PackOptions& options) {
+  const double least = least_area_in_cells(layouts, options);
+  const bool out_of_reach = least > kOutOfReach * enough && options.search == PackSearch::Thorough;
+  return least <= enough || (out_of_reach && count > kPartOfStarts * starts);
+}
+
+/// In cells, of a square that holds the charts: as the first start filled it, where only a few are to follow.
+double likely_side(const Grid& grid, const std::vector<GridLayout>& layouts) {
+  if (layouts.empty() || grid.charts.size() <= kManyCharts) return grid.cells_per_side;
+  return std::sqrt(static_cast<double>(layouts[0].width) * layouts[0].height);
+}
+
+/// What the next starts share. Only the best is wanted of rough layouts: what is larger before all charts are placed is not
+/// finished.
+GreedyRule rule_after(const std::vector<GridLayout>& layouts, const Grid& grid, const PackOptions& options) {
+  const double least = least_area_in_cells(layouts, options);
+  return {.strip_width = static_cast<int>(likely_side(grid, layouts)),
+          .most_area = options.search == PackSearch::Thorough ? INFINITY : least,
+          .aspect = options.box_aspect};
 }
 
 /// Of so many starts, each of which costs `work`.
@@ -195,12 +216,12 @@ class Search {
   }
 
   void add_greedy(int first, int count, int starts) {
-    const double most_area = most_useful(layouts_, options_);
+    const GreedyRule shared = rule_after(layouts_, grid_, options_);
     layouts_.resize(first + count);
     parallel_ranges(count, threads_, 1, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         watch_.begin_task(first + k, starts);
-        layouts_[first + k] = place_greedily(grid_.charts, random_rule(grid_, options_, first + k, most_area), watch_);
+        layouts_[first + k] = place_greedily(grid_.charts, random_rule(grid_, options_, first + k, shared), watch_);
       }
     });
   }
@@ -210,8 +231,8 @@ class Search {
     watch_.begin_part(0.05, 0.3);
     add_greedy(0, 1, starts);
     starts = affordable_starts(layouts_[0].work, starts);
-    const auto reaches = [&](const GridLayout& layout) { return area_of(layout) <= enough_; };
-    for (int first = 1; first < starts && std::none_of(layouts_.begin(), layouts_.end(), reaches); first += batch_of(options_))
+    const double enough = enough_ / (grid_.cell * grid_.cell);
+    for (int first = 1; first < starts && !suffice(layouts_, first, starts, enough, options_); first += batch_of(options_))
       add_greedy(first, std::min(batch_of(options_), starts - first), starts);
     rank();
   }

@@ -11,18 +11,19 @@
 #include "measure/distortion.h"
 #include "pack/pack_charts.h"
 #include "pack/pack_in_frame.h"
+#include "pack/room_for_gap.h"
 #include "pack/straight_border.h"
 #include "support/profile.h"
 
 namespace atlas_refine {
 namespace {
 
-// What is kept beyond the gap: the squeeze starts in a slightly larger box, and rounding to single precision must not lose it.
-// Rather too large a guess of the box, whose gap costs little, than a second round of packing.
+// Rather too large a guess of a few charts' box, whose gap costs little, than a second round of packing.
 constexpr double kLikelyPe = 0.6;
-// The same with many charts, of which each round takes seconds: with half the gap around them they take this part of the box.
-constexpr double kLikelyTaken = 0.8;
-constexpr double kMoreThanGap = 1.0065;
+// With half the gap around them charts take this part of the box, or where they are hoped to reach the target up to the other.
+constexpr double kLikelyTaken = 0.8, kMostTaken = 0.86;
+// What is kept beyond the gap: the squeeze starts in a slightly larger box, and rounding to single precision must not lose it.
+constexpr double kMoreThanGap = 1.0065, kFirstMore = 1.007;
 // Where many charts ask for a wide gap, the box grows faster than the gap can follow it.
 constexpr int kRounds = 10;
 // Length of a chart per side of the square that holds all charts: beyond it the box's gap is as wide as the charts.
@@ -85,13 +86,21 @@ Outline prepared_outline(const PlaceOptions& options, Chart& chart) {
   return outline;
 }
 
-/// The gap in the box that these charts are likely to need.
-double likely_gap(const std::vector<Chart>& charts, const Gap& gap, double box_aspect) {
-  const double area = uv_area(charts);
-  if (charts.size() <= kManyCharts) return gap.length(sides_of_area(area / kLikelyPe, box_aspect));
-  // kLikelyTaken side^2 = area + 0.5 gap perimeter, where gap = g side
-  const double g = gap.length(sides_of_area(1, box_aspect)), border = 0.25 * g * uv_perimeter(charts);
-  return g * (border + std::sqrt(border * border + kLikelyTaken * area)) / kLikelyTaken;
+/// The gap in the box that charts are likely to need: in that which reaches the target, where these may be packed so well.
+double likely_gap(const std::vector<Chart>& charts, const PlaceOptions& options, const RoomForGap& room) {
+  const auto gap_at_pe = [&](double pe) { return options.gap.length(sides_of_area(uv_area(charts) / pe, options.box_aspect)); };
+  const double at_target = kFirstMore * gap_at_pe(options.target_pe);
+  const bool hopeful =
+      room.taken(at_target, sides_of_area(uv_area(charts) / options.target_pe, options.box_aspect)) <= kMostTaken;
+  const double likely = hopeful ? at_target : room.gap_at(kLikelyTaken).value_or(at_target);
+  return charts.size() > kManyCharts ? likely : std::max(likely, gap_at_pe(kLikelyPe));
+}
+
+/// Where that of a packing was too small for its box: as if the larger one were packed as well. Nothing where nobody packs it.
+std::optional<double> next_gap(const RoomForGap& room, double gap, const Packing& packing, double wanted) {
+  const auto as_well = room.gap_at(std::max(kLikelyTaken, room.taken(gap, packing.box.size())));
+  if (!as_well) return std::nullopt;
+  return std::max(wanted, *as_well);
 }
 
 }  // namespace
@@ -120,7 +129,8 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
   }
   require_no_needles(charts);
   require_room(options.gap, options.box_aspect, charts.size());
-  PackOptions pack{.gap = likely_gap(charts, options.gap, options.box_aspect),
+  const RoomForGap room(charts, options.gap, options.box_aspect);
+  PackOptions pack{.gap = likely_gap(charts, options, room),
                    .box_aspect = options.box_aspect,
                    .target_pe = options.target_pe,
                    .seed = options.seed,
@@ -129,10 +139,13 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
                    .tick = [&](double fraction) { monitor.report(fraction); }};
   Packing packing = pack_charts(outlines, areas, pack);
   // A larger gap makes a larger box; a little more than asked each time ends this after one or two rounds.
-  const auto wanted = [&] { return options.gap.length(packing.box.size()); };
+  const auto wanted = [&] {
+    return std::sqrt(std::max(1.0, packing.pe / options.most_pe)) * options.gap.length(packing.box.size());
+  };
   for (int round = 0; charts.size() > 1 && pack.gap < kMoreThanGap * wanted(); ++round) {
-    if (round == kRounds) refuse_gap(options.gap, charts.size());
-    pack.gap = (1.007 + 0.01 * round) * wanted();
+    const auto next = next_gap(room, pack.gap, packing, wanted());
+    if (round == kRounds || !next) refuse_gap(options.gap, charts.size());
+    pack.gap = (kFirstMore + 0.01 * round) * *next;
     packing = pack_charts(outlines, areas, pack);
   }
   for (std::size_t c = 0; c < placed.size(); ++c) {

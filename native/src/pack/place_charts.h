@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +17,8 @@ namespace atlas_refine {
 struct PlaceOptions {
   Gap gap;
   double box_aspect = 0;
-  double target_pe = 1;  ///< good enough: stop searching there
+  double target_pe = 1;                                      ///< good enough: stop searching there
+  double most_pe = std::numeric_limits<double>::infinity();  ///< where charts cover more, the gap is that of a box of this PE
   std::uint64_t seed = 1;
   int threads = 1;
   PackSearch search = PackSearch::Thorough;

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "solve/contact_barrier.h"
+#include "support/gathered.h"
 #include "support/profile.h"
 
 namespace atlas_refine {
@@ -20,6 +22,7 @@ constexpr double kOfDistance = 0.9;
 constexpr double kOfFirstDistance = 0.999;
 // The pattern holds pairs up to this multiple of the reach, so that it changes seldom.
 constexpr double kPatternReach = 1.7;
+constexpr int kGrain = 1024;  // pairs
 
 /// Vertices of the point, the edge's start and its end.
 std::array<int, 3> vertices_of(const Boundary& boundary, const PointEdge& pair) {
@@ -118,6 +121,21 @@ double slack(const ReduceModel& model, const ReduceState& state, const Contact& 
   return (nearest.distance - contact.floor_fraction * unit) / contact.range;
 }
 
+/// Nothing where the two are not felt now nor along the step.
+std::optional<Contact> contact_of(const ReduceModel& model, const ReduceState& state, const PointEdge& pair,
+                                  const std::vector<Vec2>& step, double unit) {
+  if (moves_as_one(model, pair)) return std::nullopt;
+  if (!of_one_piece(model.boundary, pair)) return Contact{pair, model.gap.value, model.range};
+  const Closest nearest = closest(model.boundary, state.x, pair);
+  Contact contact = within_piece(model, pair);
+  const double least = nearest.distance - longest_approach(model.boundary, pair, step);
+  if (least >= farthest_felt(model, contact, unit, step.empty())) return std::nullopt;
+  if (!faces_outside(model.boundary, state.x, pair, nearest)) return std::nullopt;
+  // Borders that have turned to face each other below the floor need not part again.
+  if (nearest.distance <= contact.floor_fraction * unit) contact.floor_fraction = kOfDistance * nearest.distance / unit;
+  return contact;
+}
+
 }  // namespace
 
 std::vector<NearBorder> measure_near_borders(const ReduceModel& model) {
@@ -138,23 +156,12 @@ std::vector<NearBorder> measure_near_borders(const ReduceModel& model) {
 ContactSet find_contacts(const ReduceModel& model, const ReduceState& state, const std::vector<Vec2>& step) {
   const PhaseScope scope(Phase::Contacts);
   const double unit = gap_unit(model, state.box);
-  ContactSet found;
-  for (const PointEdge& pair : model.near.find(model.boundary, state.x, step, model.gap.value * unit + model.range)) {
-    if (moves_as_one(model, pair)) continue;
-    if (!of_one_piece(model.boundary, pair)) {
-      found.push_back({pair, model.gap.value, model.range});
-      continue;
+  const auto pairs = model.near.find(model.boundary, state.x, step, model.gap.value * unit + model.range);
+  return gathered<Contact>(static_cast<int>(pairs.size()), kGrain, [&](int begin, int end, auto& found) {
+    for (int k = begin; k < end; ++k) {
+      if (const auto contact = contact_of(model, state, pairs[k], step, unit)) found.push_back(*contact);
     }
-    const Closest nearest = closest(model.boundary, state.x, pair);
-    Contact contact = within_piece(model, pair);
-    const double least = nearest.distance - longest_approach(model.boundary, pair, step);
-    if (least >= farthest_felt(model, contact, unit, step.empty())) continue;
-    if (!faces_outside(model.boundary, state.x, pair, nearest)) continue;
-    // Borders that have turned to face each other below the floor need not part again.
-    if (nearest.distance <= contact.floor_fraction * unit) contact.floor_fraction = kOfDistance * nearest.distance / unit;
-    found.push_back(contact);
-  }
-  return found;
+  });
 }
 
 void note_near_borders(const ReduceState& state, const ContactSet& contacts, ReduceModel& model) {

@@ -11,6 +11,7 @@
 #include "measure/distortion.h"
 #include "reduce/contact_set.h"
 #include "solve/symmetric_dirichlet.h"
+#include "support/gathered.h"
 #include "support/profile.h"
 
 namespace atlas_refine {
@@ -24,6 +25,7 @@ constexpr double kRangeOfChart = 0.05;
 constexpr double kLongestMove = 0.25;
 constexpr double kBoxGrowth = 0.0035;  // of a box of fixed aspect
 constexpr double kShortOf = 0.95;      // of the first flip or collision
+constexpr int kGrain = 2048;           // pairs
 
 void flatten(const std::vector<Chart>& charts, ReduceModel& model) {
   int count = 0;
@@ -310,12 +312,18 @@ StepBounds free_step(const ReduceModel& model, const ReduceState& state, const s
   const auto moving = [&](int v) { return Moving{state.x[v], step[v]}; };
   const Boundary& boundary = model.boundary;
   const double whole = limit;
-  for (const PointEdge& pair : model.near.find(boundary, state.x, scaled, 0)) {
-    if (moves_as_one(model, pair)) continue;
-    const double hit = hit_time(moving(boundary.vertex[pair.point]), moving(boundary.vertex[pair.edge]),
-                                moving(boundary.vertex[boundary.next[pair.edge]]), whole);
-    limit = std::min(limit, kShortOf * hit);
-  }
+  const std::vector<PointEdge> pairs = model.near.find(boundary, state.x, scaled, 0);
+  limit = least_of(static_cast<int>(pairs.size()), kGrain, limit, [&](int begin, int end) {
+    double least = whole;
+    for (int k = begin; k < end; ++k) {
+      if (moves_as_one(model, pairs[k])) continue;
+      const auto [point, edge] = pairs[k];
+      const double hit = hit_time(moving(boundary.vertex[point]), moving(boundary.vertex[edge]),
+                                  moving(boundary.vertex[boundary.next[edge]]), whole);
+      least = std::min(least, kShortOf * hit);
+    }
+    return least;
+  });
   return {std::vector<double>(model.first_vertex.size() - 1, limit)};
 }
 

@@ -9,6 +9,7 @@
 #include "reduce/contact_set.h"
 #include "reduce/model.h"
 #include "reduce/schedule.h"
+#include "support/parallel.h"
 #include "support/profile.h"
 
 namespace atlas_refine {
@@ -88,20 +89,27 @@ void assemble(ReduceModel& model, const ReduceState& state, double stiffness, Tr
   const ContactSet contacts = find_contacts(model, state);
   note_near_borders(state, contacts, model);
   if (model.has_box && model.first_vertex.size() > kHundreds) ride_along(state, model);
-  if (!covers(system.matrix, model, contacts)) {
+  const bool anew = !covers(system.matrix, model, contacts);
+  if (anew) {
     auto pairs = triangle_sides(model.triangles);
     const auto coupled = coupled_nodes(model, state, contacts);
     pairs.insert(pairs.end(), coupled.begin(), coupled.end());
-    system.matrix.analyse(model.node_count(), std::move(pairs), model.has_box ? model.box_node() : -1);
-    slots = triangle_slots(system.matrix, model.triangles);
+    system.matrix.set_pattern(model.node_count(), std::move(pairs), model.has_box ? model.box_node() : -1);
   }
-  system.set_zero();
-  for (int v = 0; v < model.vertex_count(); ++v) {
-    if (model.node[v] != v) system.matrix.diagonal[v] += Mat2::Identity();  // an empty equation
-  }
-  add_dirichlet(model.objective, model.triangles, slots, state.x, model.threads, system);
-  add_contacts(model, state, contacts, stiffness, system);
-  if (model.has_box) add_walls(model, state, stiffness, system);
+  const auto add_all = [&] {
+    if (anew) slots = triangle_slots(system.matrix, model.triangles);
+    system.set_zero();
+    for (int v = 0; v < model.vertex_count(); ++v) {
+      if (model.node[v] != v) system.matrix.diagonal[v] += Mat2::Identity();  // an empty equation
+    }
+    add_dirichlet(model.objective, model.triangles, slots, state.x, model.threads, system);
+    add_contacts(model, state, contacts, stiffness, system);
+    if (model.has_box) add_walls(model, state, stiffness, system);
+  };
+  if (anew)
+    side_by_side(model.threads, {[&] { system.matrix.analyse_pattern(); }, add_all});
+  else
+    add_all();
 }
 
 /// The price at which log PE gains what it should; 0 where the bound does not bind.

@@ -176,11 +176,11 @@ ReduceResult downhill(const Chart& chart, const Objective& objective, double set
 
 /// The way down on coarse charts, as far as they can follow. Coarse triangles of a distorted start bend it roughly only; where
 /// they have bent it much, those of what comes of it are better shaped.
-Chart coarsely_downhill(Chart chart, const Objective& objective, int threads, Monitor& monitor) {
+Chart coarsely_downhill(Chart chart, const Sample& sample, const Objective& objective, int threads, Monitor& monitor) {
   constexpr int kMostRounds = 2;
   constexpr double kBentLittle = 0.5;  // of E_d - 1: where more than this is left
   for (int round = 0; round < kMostRounds; ++round) {
-    const auto coarse = coarsen({chart}, objective, {});
+    const auto coarse = coarsen({chart}, objective, {}, &sample);
     if (!coarse) return chart;
     const PlacedCharts rough = restricted(*coarse, {.charts = {chart}});
     const ReduceResult end = downhill(rough.charts.front(), coarse->objective, kSettled, threads, monitor);
@@ -196,8 +196,8 @@ Chart coarsely_downhill(Chart chart, const Objective& objective, int threads, Mo
 
 /// A valid start whose parts have their sizes, from fewer triangles that have found theirs: Tutte's embedding of all of them
 /// would have to be evened out first.
-std::optional<Chart> from_decimated(const Chart& chart, int threads, Monitor& monitor) {
-  const auto coarse = decimate(chart, spacing_inside(chart.surface.area()));
+std::optional<Chart> from_decimated(const Chart& chart, const Sample& sample, int threads, Monitor& monitor) {
+  const auto coarse = decimate(chart, sample);
   if (!coarse) return std::nullopt;
   const auto disk = on_disk(coarse->mesh, threads, monitor);
   if (!disk) return std::nullopt;
@@ -214,18 +214,23 @@ std::optional<Chart> from_decimated(const Chart& chart, int threads, Monitor& mo
 
 }  // namespace
 
-std::optional<Chart> spread_out(const Chart& chart, int threads, Monitor& monitor) {
+std::optional<Spread> spread_out(const Chart& chart, int threads, Monitor& monitor) {
   std::optional<Chart> start;
-  if (has_many(chart)) start = from_decimated(chart, threads, monitor);
+  Spread out;
+  if (has_many(chart)) {
+    out.sample = sample_of_coarse(chart, spacing_inside(chart.surface.area()));
+    start = from_decimated(chart, *out.sample, threads, monitor);
+  }
   if (!start) start = on_disk(chart, threads, monitor);
   if (!start) return std::nullopt;
   drop_broken_guards(*start);
-  return validly_stretched(*start);
+  out.chart = validly_stretched(*start);
+  return out;
 }
 
-std::optional<Chart> embed(const Chart& chart, const Chart& start, Shapes shapes, int threads, Monitor& monitor) {
-  const Objective objective = shapes == Shapes::OfUvs ? shapes_of_uvs(chart, {start}) : make_objective({start});
-  const Chart from = has_many(chart) ? coarsely_downhill(start, objective, threads, monitor) : start;
+std::optional<Chart> embed(const Chart& chart, const Spread& start, Shapes shapes, int threads, Monitor& monitor) {
+  const Objective objective = shapes == Shapes::OfUvs ? shapes_of_uvs(chart, {start.chart}) : make_objective({start.chart});
+  const Chart from = start.sample ? coarsely_downhill(start.chart, *start.sample, objective, threads, monitor) : start.chart;
   ReduceResult result = downhill(from, objective, kSettled, threads, monitor);
   if (!(result.energy <= kCollapsed)) return std::nullopt;
   // The start may have had polygons that were not convex and had no guards; those that are in the end are guarded from here on.

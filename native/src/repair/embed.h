@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "coarsen/sample_vertices.h"
 #include "geometry/chart.h"
 #include "support/monitor.h"
 
@@ -12,12 +13,18 @@ namespace atlas_refine {
 /// on the surface too.
 enum class Shapes { OfSurface, OfUvs };
 
-/// A valid embedding to start from; nothing where none was found.
-std::optional<Chart> spread_out(const Chart& chart, int threads, Monitor& monitor);
+/// A valid embedding, and where there are many triangles the vertices that coarse charts keep: no embedding changes them.
+struct Spread {
+  Chart chart;
+  std::optional<Sample> sample = {};
+};
+
+/// An embedding to start from; nothing where none was found.
+std::optional<Spread> spread_out(const Chart& chart, int threads, Monitor& monitor);
 
 /// The chart without overlap, from its spread_out(), at its own optimum of the distortion from these shapes (eq. 9) with all
 /// borders at least the default gap apart; polygons that have guards stay convex where that was found. It must be a disk or a
 /// disk with holes. Nothing where no embedding of acceptable distortion was found.
-std::optional<Chart> embed(const Chart& chart, const Chart& start, Shapes shapes, int threads, Monitor& monitor);
+std::optional<Chart> embed(const Chart& chart, const Spread& start, Shapes shapes, int threads, Monitor& monitor);
 
 }  // namespace atlas_refine

@@ -58,7 +58,7 @@ std::optional<CutAtlas> opened(const Chart& chart, const SidePrices& prices) {
   return atlas;
 }
 
-std::optional<Chart> embed_where(const std::optional<Chart>& start, const Chart& chart, Shapes shapes,
+std::optional<Chart> embed_where(const std::optional<Spread>& start, const Chart& chart, Shapes shapes,
                                  const RepairOptions& options, Monitor& monitor) {
   if (!start) return std::nullopt;
   return embed(chart, *start, shapes, options.threads, monitor);
@@ -83,7 +83,7 @@ Mended opened_and_embedded(const Chart& chart, const ChartShape& shape, const Si
 double energy(const Chart& chart) { return dirichlet_sums(chart).best_energy(); }
 
 /// The chart without overlap and its shape kept; nothing where there was none worth it, or it was lost all the same.
-std::optional<Chart> drawn_apart(const Chart& chart, const std::optional<Chart>& start, const std::vector<char>& bad,
+std::optional<Chart> drawn_apart(const Chart& chart, const std::optional<Spread>& start, const std::vector<char>& bad,
                                  const RepairOptions& options, Monitor& monitor) {
   if (mostly_bad(chart, bad) || !(sums_of_good(chart).best_energy() < kShapeLost)) return std::nullopt;
   const auto apart = embed_where(start, chart, Shapes::OfUvs, options, monitor);

@@ -8,6 +8,7 @@
 #include "geometry/rest_triangle.h"
 #include "measure/bad_triangles.h"
 #include "measure/certificate.h"
+#include "repair/overlap_depth.h"
 #include "repair/part_touching.h"
 #include "repair/untangle.h"
 
@@ -110,10 +111,28 @@ std::optional<Chart> accepted(const Chart& chart, bool may_overlap) {
   return parted || !valid ? parted : chart;
 }
 
+/// How wide rings are in which nothing can be mended, as the chart lies on itself beyond them. Looked for once the first attempt
+/// has failed: most charts need not know.
+class Hopeless {
+ public:
+  explicit Hopeless(const Mending& mending) : mending_(mending) {}
+
+  bool known_of(int rings) const { return depth_ && rings <= *depth_; }
+  bool is(int rings) {
+    if (!depth_) depth_ = mending_.may_overlap ? 0 : overlap_depth(mending_.chart, mending_.ring);
+    return known_of(rings);
+  }
+
+ private:
+  const Mending& mending_;
+  std::optional<int> depth_;
+};
+
 struct Untangled {
   std::optional<Chart> chart;
   double loss = kCollapsed;  ///< E_2 over the triangles that have a shape
   int rings = 0;             ///< around the bad triangles, that moved
+  bool unfolded = false;     ///< this or another attempt had every triangle positive, if not apart
 };
 
 Untangled untangled(const Mending& mending, const std::vector<Vec2>& uvs, int rings) {
@@ -125,7 +144,7 @@ Untangled untangled(const Mending& mending, const std::vector<Vec2>& uvs, int ri
 }
 
 /// The best of all rings around the bad triangles.
-Untangled untangle_rings(const Mending& mending) {
+Untangled untangle_rings(const Mending& mending, Hopeless& hopeless) {
   const int widest = *std::max_element(mending.ring.begin(), mending.ring.end());
   Untangled best;
   int overlapping = 0;
@@ -135,10 +154,15 @@ Untangled untangle_rings(const Mending& mending) {
       rings = widest + 1;  // most of it moves: let all of it
       tangle = tangle_within(mending, rings, 1);
     }
-    const auto uvs = untangle(tangle, mending.chart.uvs, mending.threads, mending.monitor);
-    if (!uvs) continue;
+    const auto uvs =
+        hopeless.known_of(rings) ? std::nullopt : untangle(tangle, mending.chart.uvs, mending.threads, mending.monitor);
+    if (!uvs) {
+      overlapping += hopeless.is(rings);
+      continue;
+    }
     Untangled own = untangled(mending, *uvs, rings);
     if (!own.chart) ++overlapping;
+    own.unfolded = best.unfolded = true;
     if (own.loss < best.loss) best = std::move(own);
     if (best.loss <= kShapesKept) break;
   }
@@ -166,11 +190,13 @@ Untangled yielding(const Mending& mending, Untangled best) {
 std::optional<Chart> untangle_chart(const Chart& chart, bool may_overlap, int threads, Monitor& monitor) {
   const std::vector<char> bad = bad_triangles(chart), misshapen = misshapen_triangles(chart);
   const Mending mending{chart, rings_around(chart, bad), misshapen, may_overlap, threads, monitor};
-  Untangled best = untangle_rings(mending);
-  if (best.loss <= kShapesKept || misshapen == bad) return yielding(mending, std::move(best)).chart;
+  Hopeless hopeless(mending);
+  Untangled best = untangle_rings(mending, hopeless);
+  // Drawn out as they are, triangles have less room to unfold than with the surface's shape.
+  if (best.loss <= kShapesKept || misshapen == bad || !best.unfolded) return yielding(mending, std::move(best)).chart;
   // Where the artist's UVs are far from the surface all over, what looks drawn out may be meant.
   const Mending as_meant{chart, mending.ring, bad, may_overlap, threads, monitor};
-  Untangled kept = untangle_rings(as_meant);
+  Untangled kept = untangle_rings(as_meant, hopeless);
   return (kept.loss < best.loss ? yielding(as_meant, std::move(kept)) : yielding(mending, std::move(best))).chart;
 }
 

@@ -16,9 +16,10 @@ struct InputAtlas {
   const Atlas& atlas;  ///< the whole mesh
   ChartSet set;        ///< of the charts that take part
   Measures measures = {};
-  Vec2 origin = Vec2::Zero();  ///< lower left corner of the box that the result fills
-  double spare = 1;            ///< of settle_density(), by which it has made the gap larger
-  double size_rounding = 0;    ///< of the same: relative, of the size that UVs have once they are stored
+  Vec2 origin = Vec2::Zero();   ///< lower left corner of the box that the result fills
+  double spare = 1;             ///< of settle_density(), by which it has made the gap larger
+  bool gap_of_texture = false;  ///< of the same: charts that cover more of their box than the bound lie in a larger one
+  double size_rounding = 0;     ///< of the same: relative, of the size that UVs have once they are stored
 };
 
 /// All charts, each in units of its group's texture, not measured. Throws RefineError(BadInput) as split_charts() does.

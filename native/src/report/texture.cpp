@@ -70,7 +70,7 @@ double border_of(const RefineOptions& options) {
   return kept ? options.gap->length(Vec2(options.box_aspect, 1)) + kBorderSpare : 0;
 }
 
-RefineOptions settle_density(RefineOptions options, InputAtlas& input, Journal& journal) {
+RefineOptions settle_density(RefineOptions options, InputAtlas& input, Journal& journal, bool ample) {
   if (options.uv_density == 0) return options;
   double surface = 0;
   for (const Chart& chart : input.set.charts) surface += chart.surface.area();
@@ -85,6 +85,8 @@ RefineOptions settle_density(RefineOptions options, InputAtlas& input, Journal& 
     input.size_rounding += area_rounding(input, options, surface) / 2;
     options.pe_bound = share * std::max(0.5, 1 - 2 * input.size_rounding);
     const double gap = options.gap ? options.gap->length(Vec2(options.box_aspect, 1)) : 0;
+    input.gap_of_texture = options.gap && !ample;
+    if (input.gap_of_texture) return options;
     const double most = most_growth(input.set.charts, options.uv_density, options.box_aspect, gap);
     input.spare = std::max(1.0, most * (1 + kSizeRounding));
     if (options.gap) options.gap->value *= input.spare;

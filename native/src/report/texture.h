@@ -21,11 +21,12 @@ double border_of(const RefineOptions& options);
 inline constexpr double kBorderSpare = 1e-6;
 
 /// Charts that are to have `uv_density`. In a texture: what they cover of it so is the bound; where that is more than the bound
-/// they fill it, and have the size that comes of it. They are packed as large as it comes and then brought to their size, so
-/// `spare` tells how much larger that may be at most, and a gap that is given becomes larger by it. In a free box: a gap in
+/// they fill it, and have the size that comes of it. A gap that is given is one of the texture, however much of their box charts
+/// cover that are moved. With `ample` they may cover more of it after they were bent as well: they are then brought to their
+/// size, so `spare` tells how much larger they may have become at most, and the gap becomes larger by it. In a free box: a gap in
 /// parts of the long side is meant of [0, 1]^2, and becomes one of the box, as if that were square and full; so it is at least
 /// what is asked, up to a tenth of the box, which is told. Needs the origin.
-RefineOptions settle_density(RefineOptions options, InputAtlas& input, Journal& journal);
+RefineOptions settle_density(RefineOptions options, InputAtlas& input, Journal& journal, bool ample);
 
 /// The same options for the box within that border: its aspect, and bound and gap, which has that little more too, as fractions
 /// of it. Throws RefineError(BoundNotReached) where it cannot hold the bound and no best effort is asked for.

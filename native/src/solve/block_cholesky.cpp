@@ -3,12 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "solve/elimination_order.h"
+#include "support/parallel.h"
 #include "support/profile.h"
+#include "support/thread_pool.h"
 
 namespace atlas_refine {
 namespace {
+
+constexpr int kGrain = 16384;  // blocks that are set to zero
 
 /// Both triangles of a pattern with its nodes renumbered, and where the blocks lie: as Multifrontal::analyse takes them.
 struct Renumbered {
@@ -47,20 +52,24 @@ Renumbered renumber(const std::vector<int>& row_start, const std::vector<int>& r
 }  // namespace
 
 void BlockCholesky::analyse(int node_count, std::vector<std::pair<int, int>> edges, int last_node) {
+  set_pattern(node_count, std::move(edges), last_node);
+  analyse_pattern();
+  set_zero();
+}
+
+void BlockCholesky::set_pattern(int node_count, std::vector<std::pair<int, int>> edges, int last_node) {
   const PhaseScope scope(Phase::Order);
   diagonal = {};  // whose memory the analysis may have
   off_diagonal = {};
-  set_pattern(node_count, edges);
-  edges = {};
-  const bool same_nodes = static_cast<int>(order_.size()) == node_count && last_node_ == last_node;
+  list_rows(node_count, edges);
+  same_nodes_ = static_cast<int>(order_.size()) == node_count && last_node_ == last_node;
   last_node_ = last_node;
-  analyse_in_order(same_nodes);
-  diagonal.assign(node_count, Mat2::Zero());
-  off_diagonal.assign(row_nodes_.size(), Mat2::Zero());
 }
 
-void BlockCholesky::analyse_in_order(bool same_nodes) {
-  if (same_nodes) {
+/// In the present order where the nodes are the same and it still is good enough, else in a new one.
+void BlockCholesky::analyse_pattern() {
+  const PhaseScope scope(Phase::Order);
+  if (same_nodes_) {
     analyse_factor();
     lost_work_ += factor_.work() - work_when_found_;
     if (lost_work_ <= order_work_) return;
@@ -78,7 +87,7 @@ void BlockCholesky::analyse_factor() {
   order_ = factor_.order();  // what is near in the tree is then near in memory
 }
 
-void BlockCholesky::set_pattern(int node_count, const std::vector<std::pair<int, int>>& edges) {
+void BlockCholesky::list_rows(int node_count, const std::vector<std::pair<int, int>>& edges) {
   // Bucket by the smaller node, then sort and thin out each short row.
   std::vector<int> start(node_count + 1, 0);
   for (const auto& [i, j] : edges) ++start[std::min(i, j) + 1];
@@ -115,8 +124,12 @@ void BlockCholesky::add(int i, int j, const Mat2& block) {
 }
 
 void BlockCholesky::set_zero() {
-  std::fill(diagonal.begin(), diagonal.end(), Mat2::Zero());
-  std::fill(off_diagonal.begin(), off_diagonal.end(), Mat2::Zero());
+  diagonal.resize(row_start_.size() - 1);
+  off_diagonal.resize(row_nodes_.size());
+  for (std::vector<Mat2>* blocks : {&diagonal, &off_diagonal}) {
+    parallel_ranges(static_cast<int>(blocks->size()), present_threads(), kGrain,
+                    [&](int begin, int end) { std::fill(blocks->begin() + begin, blocks->begin() + end, Mat2::Zero()); });
+  }
 }
 
 void BlockCholesky::find_order() {

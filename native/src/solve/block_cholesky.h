@@ -17,6 +17,10 @@ class BlockCholesky {
   /// for as long as that is cheaper than finding a better one.
   void analyse(int node_count, std::vector<std::pair<int, int>> edges, int last_node = -1);
 
+  /// The same in two parts: after the first one slots are known, and values may be set while the second one goes on.
+  void set_pattern(int node_count, std::vector<std::pair<int, int>> edges, int last_node);
+  void analyse_pattern();
+
   /// Index into `off_diagonal` of the block (min(i, j), max(i, j)), -1 where the pattern has none.
   int slot(int i, int j) const;
 
@@ -28,6 +32,7 @@ class BlockCholesky {
   /// Adds a block of row i and column j; of the two mirrored blocks of a symmetric matrix only the one with i <= j counts.
   void add(int i, int j, const Mat2& block);
 
+  /// All values of the pattern.
   void set_zero();
 
   /// False where a pivot is not positive; the factor is then unusable. The bits do not depend on the number of threads.
@@ -40,16 +45,15 @@ class BlockCholesky {
 
  private:
   void analyse_factor();
-  /// In the present order where the nodes are the same and it still is good enough, else in a new one.
-  void analyse_in_order(bool same_nodes);
-  void set_pattern(int node_count, const std::vector<std::pair<int, int>>& edges);
+  void list_rows(int node_count, const std::vector<std::pair<int, int>>& edges);
   void find_order();
 
   // Pattern of the matrix, rows of smaller nodes.
-  std::vector<int> row_start_;
+  std::vector<int> row_start_ = {0};
   std::vector<int> row_nodes_;
   // The order that is kept, what finding it cost, the work of a factorisation then, and what it has cost beyond that since.
   std::vector<int> order_;
+  bool same_nodes_ = false;  ///< as those that it is of
   int last_node_ = -1;
   double order_work_ = 0;
   double work_when_found_ = 0;

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "support/inline.h"
+#include "support/parallel.h"
 
 namespace atlas_refine {
 namespace {
@@ -162,45 +163,66 @@ ATLAS_REFINE_INLINE bool factor_chunk(const Front& front, const Chunk& chunk) {
   return true;
 }
 
-/// Subtracts the chunk's products from the columns of the panel that come after it.
+/// Tiles of columns after the chunk: those of the panel, then those of the update.
+int tiles_after(const Front& front, const Chunk& chunk) { return (front.rows - chunk.end + kTile - 1) / kTile; }
+
+/// Subtracts the chunk's products from a tile of columns of the panel.
 template <int Lanes>
-ATLAS_REFINE_INLINE void update_panel(const Front& front, const Chunk& chunk) {
-  for (int column = chunk.end; column < front.pivots; column += kTile) {
-    for (int row = column; row < front.rows; row += kTile) {
-      const Target target{front.panel + row + static_cast<std::ptrdiff_t>(column) * front.rows, front.rows,
-                          std::min(kTile, front.rows - row)};
-      product_tile<Lanes, kTile, false>(chunk.tile(row), chunk.tile(column), chunk.depth(), target);
-    }
+ATLAS_REFINE_INLINE void update_panel(const Front& front, const Chunk& chunk, int column) {
+  for (int row = column; row < front.rows; row += kTile) {
+    const Target target{front.panel + row + static_cast<std::ptrdiff_t>(column) * front.rows, front.rows,
+                        std::min(kTile, front.rows - row)};
+    product_tile<Lanes, kTile, false>(chunk.tile(row), chunk.tile(column), chunk.depth(), target);
   }
 }
 
 template <int Lanes, bool Fresh>
-ATLAS_REFINE_INLINE void update_below(const Front& front, const Chunk& chunk, double* update) {
+ATLAS_REFINE_INLINE void update_below(const Front& front, const Chunk& chunk, double* update, int column) {
   const int stride = front.below();
-  for (int column = front.pivots; column < front.rows; column += kTile) {
-    with_columns(
-        std::min(kTile, front.rows - column), [&](auto constant) __attribute__((always_inline)) {
-          double* to = update + static_cast<std::ptrdiff_t>(column - front.pivots) * stride;
-          for (int row = column; row < front.rows; row += kTile) {
-            const Target target{to + row - front.pivots, stride, std::min(kTile, front.rows - row)};
-            product_tile<Lanes, constant.value, Fresh>(chunk.tile(row), chunk.tile(column), chunk.depth(), target);
-          }
-        });
+  with_columns(
+      std::min(kTile, front.rows - column), [&](auto constant) __attribute__((always_inline)) {
+        double* to = update + static_cast<std::ptrdiff_t>(column - front.pivots) * stride;
+        for (int row = column; row < front.rows; row += kTile) {
+          const Target target{to + row - front.pivots, stride, std::min(kTile, front.rows - row)};
+          product_tile<Lanes, constant.value, Fresh>(chunk.tile(row), chunk.tile(column), chunk.depth(), target);
+        }
+      });
+}
+
+/// What a chunk does to tiles [begin, end) of the columns after it.
+using UpdateTiles = void (*)(const Front& front, const Chunk& chunk, double* update, int begin, int end);
+
+template <int Lanes>
+ATLAS_REFINE_INLINE void update_with(const Front& front, const Chunk& chunk, double* update, int begin, int end) {
+  for (int tile = begin; tile < end; ++tile) {
+    const int column = chunk.end + tile * kTile;
+    if (column < front.pivots)
+      update_panel<Lanes>(front, chunk, column);
+    else if (chunk.begin == 0)
+      update_below<Lanes, true>(front, chunk, update, column);
+    else
+      update_below<Lanes, false>(front, chunk, update, column);
   }
 }
 
+/// Tiles are sums of their own: they may be on several threads.
+void update_side_by_side(const Front& front, const Chunk& chunk, double* update, int threads, UpdateTiles update_tiles) {
+  constexpr double kLeastWork = 4e6;  // multiplications of a part
+  const int tiles = tiles_after(front, chunk);
+  const double of_tile = static_cast<double>(kTile) * front.rows * chunk.depth();
+  if (threads <= 1 || of_tile * tiles < 2 * kLeastWork) return update_tiles(front, chunk, update, 0, tiles);
+  parallel_ranges(tiles, threads, static_cast<int>(kLeastWork / of_tile) + 1,
+                  [&](int begin, int end) { update_tiles(front, chunk, update, begin, end); });
+}
+
 template <int Lanes>
-ATLAS_REFINE_INLINE bool factor_with(const Front& front, double* update, double* packed) {
+ATLAS_REFINE_INLINE bool factor_with(const Front& front, const FrontOutput& out, UpdateTiles update_tiles) {
   // The first block takes what is over, so that tiles of rows end where the pivots do.
   int first = front.pivots % kTile == 0 ? kTile : front.pivots % kTile;
   for (int begin = 0; begin < front.pivots; first = kTile) {
-    const Chunk chunk{begin, std::min(front.pivots, begin + first + kChunk - kTile), first, packed_columns(front), packed};
+    const Chunk chunk{begin, std::min(front.pivots, begin + first + kChunk - kTile), first, packed_columns(front), out.packed};
     if (!factor_chunk<Lanes>(front, chunk)) return false;
-    update_panel<Lanes>(front, chunk);
-    if (begin == 0)
-      update_below<Lanes, true>(front, chunk, update);
-    else
-      update_below<Lanes, false>(front, chunk, update);
+    update_side_by_side(front, chunk, out.update, out.threads, update_tiles);
     begin = chunk.end;
   }
   return true;
@@ -309,8 +331,11 @@ ATLAS_REFINE_INLINE void backward_with(const Front& front, const FrontSide* side
 
 // The same code for one set of instructions.
 #define ATLAS_REFINE_KERNELS(name, lanes, target)                                                                         \
-  target bool factor_##name(const Front& front, double* update, double* packed) {                                         \
-    return factor_with<lanes>(front, update, packed);                                                                     \
+  target void update_##name(const Front& front, const Chunk& chunk, double* update, int begin, int end) {                 \
+    update_with<lanes>(front, chunk, update, begin, end);                                                                 \
+  }                                                                                                                       \
+  target bool factor_##name(const Front& front, const FrontOutput& out) {                                                 \
+    return factor_with<lanes>(front, out, update_##name);                                                                 \
   }                                                                                                                       \
   target void forward_##name(const Front& front, std::span<const FrontSide> sides) { forward_with<lanes>(front, sides); } \
   target void backward_##name(const Front& front, std::span<const FrontSide> sides) {                                     \

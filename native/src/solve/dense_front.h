@@ -25,13 +25,19 @@ struct FrontSide {
   double* below;
 };
 
+/// Where the factorisation of a front writes, and by how many threads a large one may be divided.
+struct FrontOutput {
+  double* update;
+  double* packed;  ///< scratch memory of packed_size
+  int threads = 1;
+};
+
 /// The kernels for one set of instructions.
 struct FrontKernels {
   const char* name;
   /// Replaces the panel by its factor L, with the inverse of its diagonal, and writes -(L below)(L below)^T to the lower triangle
-  /// of `update`, below() x below() by columns. `packed` is scratch memory of packed_size. False where a pivot is not positive;
-  /// panel and update are then of no use.
-  bool (*factor)(const Front& front, double* update, double* packed);
+  /// of the update, below() x below() by columns. False where a pivot is not positive; panel and update are then of no use.
+  bool (*factor)(const Front& front, const FrontOutput& out);
   /// at_pivots := L^-1 at_pivots, below -= (L below) at_pivots.
   void (*solve_forward)(const Front& front, std::span<const FrontSide> sides);
   /// at_pivots := L^-T (at_pivots - (L below)^T below).

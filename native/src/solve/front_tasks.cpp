@@ -32,11 +32,13 @@ void finish(int task, bool good, Queue& queue) {
   queue.changed.notify_all();
 }
 
-void work_on(Queue& queue, int worker, const TaskBody& body) {
+/// Upwards a task releases at most the one above it, which its own thread goes on with: who finds none ready is free to help with
+/// large fronts.
+void work_on(Queue& queue, bool up, int worker, const TaskBody& body) {
   std::unique_lock lock(queue.mutex);
   while (true) {
-    queue.changed.wait(lock, [&] { return queue.failed || queue.left == 0 || !queue.ready.empty(); });
-    if (queue.failed || queue.left == 0) return;
+    if (!up) queue.changed.wait(lock, [&] { return queue.failed || queue.left == 0 || !queue.ready.empty(); });
+    if (queue.failed || queue.ready.empty()) return;
     const int task = queue.ready.back();
     queue.ready.pop_back();
     lock.unlock();
@@ -70,7 +72,7 @@ bool run_tasks(const std::vector<FrontTask>& tasks, bool up, int threads, const 
     if (queue.waits_for[task] == 0) queue.ready.push_back(task);
   }
   parallel_ranges(threads, threads, 1, [&](int begin, int end) {
-    for (int worker = begin; worker < end; ++worker) work_on(queue, worker, body);
+    for (int worker = begin; worker < end; ++worker) work_on(queue, up, worker, body);
   });
   return !queue.failed;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "support/parallel.h"
+
 namespace atlas_refine {
 namespace {
 
@@ -162,16 +164,27 @@ class Multifrontal::Run {
     const Front front = factor_.front(s);
     find_updates(s, task_begin, worker);
     factor_.fill_panel(s, values_);
-    const auto places = [&](int child) {
-      return std::span<const int>(tree_.row_in_parent.data() + tree_.row_start[child], tree_.below(child));
-    };
-    for (const auto& [child, from] : worker.children) add_update(from, places(child), 0, pivots, {front.panel, front.rows});
-    if (!best_kernels().factor(front, update, worker.packed.reserve(packed_size(front)))) return false;
-    for (const auto& [child, from] : worker.children) {
-      add_update(from, places(child), pivots, pivots + tree_.below(s), {update, front.below()});
-      if (child < task_begin) outputs_[task_of(child)] = Buffer();
+    add_updates(worker, 0, pivots, {front.panel, front.rows});
+    if (!best_kernels().factor(front, {update, worker.packed.reserve(packed_size(front)), factor_.threads_})) return false;
+    add_updates(worker, pivots, pivots + tree_.below(s), {update, front.below()});
+    for (const auto& child : worker.children) {
+      if (child.first < task_begin) outputs_[task_of(child.first)] = Buffer();
     }
     return true;
+  }
+
+  /// Adds what the children have for columns [begin, end) of a front, whose columns are sums of their own.
+  void add_updates(const Worker& worker, int begin, int end, const Columns& to) const {
+    constexpr int kGrain = 64;  // columns of a front that may be divided, in nodes
+    const auto add_to = [&](int first, int last) {
+      const std::ptrdiff_t before = (2 * static_cast<std::ptrdiff_t>(to.stride) + 2) * (first - begin);
+      for (const auto& [child, from] : worker.children) {
+        const std::span places(tree_.row_in_parent.data() + tree_.row_start[child], tree_.below(child));
+        add_update(from, places, first, last, {to.values + before, to.stride});
+      }
+    };
+    if (factor_.threads_ == 1 || end - begin < 2 * kGrain) return add_to(begin, end);
+    parallel_ranges(end - begin, factor_.threads_, kGrain, [&](int first, int last) { add_to(begin + first, begin + last); });
   }
 
   /// The task that ends with a supernode.

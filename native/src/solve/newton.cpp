@@ -7,11 +7,15 @@
 
 #include "geometry/collision.h"
 #include "solve/symmetric_dirichlet.h"
+#include "support/gathered.h"
 #include "support/parallel.h"
 #include "support/profile.h"
+#include "support/thread_pool.h"
 
 namespace atlas_refine {
 namespace {
+
+constexpr int kGrain = 4096;  // triangles
 
 void add_triangle(const Triangle& v, const std::array<int, 3>& slots, double weight, const TriangleDerivatives& d,
                   BlockSystem& system) {
@@ -47,32 +51,35 @@ std::vector<std::pair<int, int>> triangle_sides(const std::vector<Triangle>& tri
 }
 
 TriangleSlots triangle_slots(const BlockCholesky& matrix, const std::vector<Triangle>& triangles) {
-  TriangleSlots slots;
-  slots.reserve(triangles.size());
-  for (const Triangle& t : triangles)
-    slots.push_back({matrix.slot(t[0], t[1]), matrix.slot(t[1], t[2]), matrix.slot(t[2], t[0])});
+  TriangleSlots slots(triangles.size());
+  parallel_ranges(static_cast<int>(triangles.size()), present_threads(), kGrain, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const Triangle& t = triangles[k];
+      slots[k] = {matrix.slot(t[0], t[1]), matrix.slot(t[1], t[2]), matrix.slot(t[2], t[0])};
+    }
+  });
   return slots;
 }
 
 double dirichlet_energy(const Objective& objective, const std::vector<Triangle>& triangles, const std::vector<Vec2>& x) {
+  const std::vector<double> energies = triangle_energies(objective, triangles, x);
   double sum = 0;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Triangle& v = triangles[t];
-    const double energy = symmetric_dirichlet(jacobian(objective.inverse_edges[t], x[v[0]], x[v[1]], x[v[2]]));
-    if (!std::isfinite(energy)) return std::numeric_limits<double>::infinity();
-    sum += objective.weight[t] * energy;
+  for (std::size_t t = 0; t < energies.size(); ++t) {
+    if (!std::isfinite(energies[t])) return std::numeric_limits<double>::infinity();
+    sum += objective.weight[t] * energies[t];
   }
   return sum;
 }
 
 std::vector<double> triangle_energies(const Objective& objective, const std::vector<Triangle>& triangles,
                                       const std::vector<Vec2>& x) {
-  std::vector<double> energies;
-  energies.reserve(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Triangle& v = triangles[t];
-    energies.push_back(symmetric_dirichlet(jacobian(objective.inverse_edges[t], x[v[0]], x[v[1]], x[v[2]])));
-  }
+  std::vector<double> energies(triangles.size());
+  parallel_ranges(static_cast<int>(triangles.size()), present_threads(), kGrain, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      const Triangle& v = triangles[t];
+      energies[t] = symmetric_dirichlet(jacobian(objective.inverse_edges[t], x[v[0]], x[v[1]], x[v[2]]));
+    }
+  });
   return energies;
 }
 
@@ -138,8 +145,14 @@ double flip_free_fraction(const std::vector<Triangle>& triangles, const std::vec
                           double limit, double short_of) {
   const PhaseScope scope(Phase::LineSearch);
   const auto moving = [&](int v) { return Moving{x[v], step[v]}; };
-  for (const Triangle& t : triangles) limit = std::min(limit, short_of * flip_time(moving(t[0]), moving(t[1]), moving(t[2])));
-  return limit;
+  return least_of(static_cast<int>(triangles.size()), kGrain, limit, [&](int begin, int end) {
+    double least = limit;
+    for (int k = begin; k < end; ++k) {
+      const Triangle& t = triangles[k];
+      least = std::min(least, short_of * flip_time(moving(t[0]), moving(t[1]), moving(t[2])));
+    }
+    return least;
+  });
 }
 
 double StepBounds::least() const { return of_piece.empty() ? 1 : *std::min_element(of_piece.begin(), of_piece.end()); }

@@ -1,6 +1,7 @@
 // Shapes from the surface or a reference, scaled by density; weights from areas and importance.
 #include "solve/objective.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "geometry/guards.h"
@@ -11,6 +12,14 @@ namespace {
 
 /// Of the area of a guard that no measure counts: enough that it bends before it stops the others, too little to be felt.
 constexpr double kBarrierShare = 0.01;
+
+/// Of a triangle without one on the surface that of the shape which stands for it: what cost next to nothing would grow until the
+/// bound holds.
+double area_to_weigh(const RestTriangle& shape) {
+  constexpr double kOwn = 0.5;  // of its shape's area, which rounding is far from
+  const double standing_for = 0.5 / shape.inverse_edges.determinant();
+  return shape.area > kOwn * standing_for ? shape.area : standing_for;
+}
 
 double surface_area(const std::vector<Chart>& pieces) {
   double area = 0;
@@ -51,7 +60,7 @@ Objective make_objective(const std::vector<Chart>& pieces, const ObjectiveReques
     for_each_element(pieces[p], [&](const Triangle& triangle, const RestTriangle& shape, double share, int face) {
       out.inverse_edges.push_back(out.unit / factors[p] * wanted_shape(request, p, triangle, shape.inverse_edges));
       const double importance = request.importance.empty() ? 1 : request.importance[face];
-      out.weight.push_back(shape.area * (share > 0 ? share : kBarrierShare) * importance);
+      out.weight.push_back(area_to_weigh(shape) * (share > 0 ? share : kBarrierShare) * importance);
       sum += out.weight.back();
     });
   }

@@ -28,6 +28,9 @@ class ThreadPool {
   /// The pool of this thread: the one that it helps, or that a ThreadPoolScope has given it; nullptr where there is none.
   static ThreadPool* present();
 
+  /// With the one that calls.
+  int threads() const { return most_helpers_ + 1; }
+
  private:
   friend class ThreadPoolScope;
   struct Call;
@@ -45,6 +48,9 @@ class ThreadPool {
   bool closing_ = false;
   std::vector<std::jthread> helpers_;
 };
+
+/// Threads that loops in this one may use where nobody tells them: those of its pool, 1 where it has none.
+inline int present_threads() { return ThreadPool::present() ? ThreadPool::present()->threads() : 1; }
 
 /// While it lives, parallel loops of this thread share one pool: that of an outer scope, or its own. None outlives the outermost
 /// scope, so that no thread is left where a process forks or unloads the library.
