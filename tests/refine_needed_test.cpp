@@ -122,6 +122,25 @@ TEST(Needed, ALargerBudgetIsNeverWorse) {
   }
 }
 
+/// More of them than are placed anew for every set of cuts: the path itself squeezes what it passes.
+TEST(Needed, ManyChartsKeepTheBudget) {
+  std::vector<Atlas> charts;
+  for (int k = 0; k < 10; ++k) {
+    charts.push_back(k % 2 == 0 ? flat_s() : flat_star());
+    for (Vec2& uv : charts.back().corner_uvs) uv.x() += 3 * k;
+  }
+  const Atlas atlas = shapes::combine(charts);
+  RefineOptions options = needed();
+  options.seam_cost = 0;
+  double before = without_cuts(atlas);
+  for (const double budget : {0.01, 0.02, 0.04}) {
+    options.max_boundary_growth = budget;
+    const double distortion = refine_soundly(atlas, options).after.distortion;
+    EXPECT_LE(distortion, before);
+    before = distortion;
+  }
+}
+
 TEST(Needed, WhereNoCutsKeepTheLimitRectanglesDo) {
   const Atlas comb = shapes::mesh(shapes::comb(), 0.1, 0), u = shapes::mesh(shapes::u_shape(), 0.1, 0);
   RefineOptions options = needed_within(1.0001);

@@ -280,15 +280,14 @@ std::optional<Solution> squeeze_in_place(const Refinement& run, const CutAtlas& 
   return cut_solution(laid, result, from.gap);
 }
 
-std::optional<Forecast> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from, double aim) {
-  auto [start, objective, warm, options] = in_place(run, laid, from);
-  options.aim = aim;
+std::optional<Forecast> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from) {
+  const auto [start, objective, warm, options] = in_place(run, laid, from);
   Forecast out = forecast_squeeze_on(start, objective, from.gap, warm, options, run.monitor);
   if (!out.end.outcome.holds()) return std::nullopt;
   return out;
 }
 
-std::optional<Forecast> forecast_anew(const Refinement& run, const CutAtlas& atlas, double aim) {
+std::optional<Forecast> forecast_anew(const Refinement& run, const CutAtlas& atlas) {
   const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), atlas);
   const std::vector<Chart> pieces = meshes_of(atlas);
   const std::vector<Gap> gaps = gaps_of(run, pieces, freedom, kMostTakenBent);
@@ -299,8 +298,7 @@ std::optional<Forecast> forecast_anew(const Refinement& run, const CutAtlas& atl
         any_fixed(freedom) ? charts : relaxed_apart(charts, objective, gaps.front(), freedom, run.monitor);
     return place(run, shapes, freedom, gaps.front(), kNearly * run.options.pe_bound, PackSearch::Fair);
   };
-  SqueezeOptions options = squeeze_options(run, freedom, gaps);
-  options.aim = aim;
+  const SqueezeOptions options = squeeze_options(run, freedom, gaps);
   Forecast out = forecast_squeeze(pieces, goal_of(run.input.set.charts, atlas, run.options), placer, options, run.monitor);
   if (!out.end.outcome.holds()) return std::nullopt;
   return out;

@@ -25,12 +25,11 @@ std::optional<double> squeezed_distortion(const Refinement& run, const CutAtlas&
 /// Nothing where the bound is not reached.
 std::optional<Solution> squeeze_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from);
 
-/// The objective of these at the bound, sooner and rougher, the more so the farther it is above `aim` (0: none). Nothing where
-/// the bound is not reached. Several may run at once.
-std::optional<Forecast> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from, double aim);
+/// The objective of these at the bound, sooner and rougher. Nothing where the bound is not reached. Several may run at once.
+std::optional<Forecast> forecast_in_place(const Refinement& run, const CutAtlas& laid, const Solution& from);
 
 /// The same for pieces that are placed anew. Several may run at once.
-std::optional<Forecast> forecast_anew(const Refinement& run, const CutAtlas& atlas, double aim);
+std::optional<Forecast> forecast_anew(const Refinement& run, const CutAtlas& atlas);
 /// `atlas` to the end of that; nothing where that does not hold the bound.
 std::optional<Solution> squeeze_as_forecast(const Refinement& run, const CutAtlas& atlas, const Forecast& forecast);
 

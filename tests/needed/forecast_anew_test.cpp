@@ -19,7 +19,7 @@ TEST(ForecastAnew, WhatWasBentIsPlacedAsItWillBe) {
   Monitor monitor;
   Journal journal(monitor, nullptr, options.box_aspect);
   const Refinement run{input, options, monitor, journal, 1, options};
-  const auto forecast = forecast_anew(run, whole_charts(run, ProgressRange(0, 1)).atlas, 0);
+  const auto forecast = forecast_anew(run, whole_charts(run, ProgressRange(0, 1)).atlas);
   ASSERT_TRUE(forecast.has_value());
   EXPECT_LT(forecast->end.outcome.energy, 1.001);
 }
@@ -31,7 +31,7 @@ TEST(ForecastAnew, StretchIsToldAsWell) {
   Journal journal(monitor, nullptr, 0);
   const RefineOptions options;
   const Refinement run{input, options, monitor, journal, 1, options};
-  const auto forecast = forecast_anew(run, whole_charts(run, ProgressRange(0, 1)).atlas, 0);
+  const auto forecast = forecast_anew(run, whole_charts(run, ProgressRange(0, 1)).atlas);
   ASSERT_TRUE(forecast.has_value());
   const double stretch = refine(atlas, options).after.stretch_99;
   EXPECT_GT(stretch, 1.05);

@@ -195,22 +195,6 @@ TEST(Reduce, StopsWhereDistortionIsEnough) {
   EXPECT_LT(early.iterations, best.iterations);
 }
 
-/// What is far above its aim is told roughly; what gets below it, as without one.
-TEST(Reduce, FarAboveItsAimEndsSoonerAndNearlyAsWell) {
-  const auto charts = s_chart();
-  ReduceProblem problem{.charts = charts, .gap = Gap{}, .pe_target = 0.75};
-  const ReduceResult end = reduce_distortion(problem);
-  problem.aim = 1.0001;
-  const ReduceResult rough = reduce_distortion(problem);
-  checked(problem, rough);
-  EXPECT_TRUE(rough.reached);
-  EXPECT_LT(rough.iterations, end.iterations);
-  EXPECT_LT(rough.energy - 1, 1.1 * (end.energy - 1));
-  problem.aim = end.energy;
-  const ReduceResult within = reduce_distortion(problem);
-  EXPECT_EQ(within.energy, end.energy);
-}
-
 TEST(Reduce, ABoundThatTheGapForbidsIsNotReported) {
   const std::vector<Chart> charts = charts_of(shapes::two_squares(0.3));
   const ReduceProblem problem{.charts = charts, .gap = {0.1}, .pe_target = 0.99, .max_iterations = 300};

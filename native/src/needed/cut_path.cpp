@@ -58,6 +58,7 @@ bool CutPath::advance(double most_growth) {
   double reach = std::max(kStep * passed_, passed_ + kLeastStep);
   while (!trials_.finishing()) {
     if (CutSet* set = next(reach)) {
+      if (set->trial.growth > most_growth) break;
       pass(*set);
       return true;
     }

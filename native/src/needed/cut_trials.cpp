@@ -222,9 +222,8 @@ std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, cons
   const auto laid =
       present && (charts->size() > 1 || !present->trial.cuts.empty()) ? in_place(*charts, *atlas, *present) : std::nullopt;
   const Bias& bias = terms.bias;
-  const auto aim = [&](double biased) { return terms.aim > 0 ? terms.aim - offset_ - biased : 0; };  // of the objective
-  auto left = laid ? forecast_in_place(run, *laid, present->solution, aim(bias.in_place)) : std::nullopt;
-  auto moved = !left || charts->size() <= kFewCharts ? forecast_anew(run, *atlas, aim(bias.anew)) : std::nullopt;
+  auto left = laid ? forecast_in_place(run, *laid, present->solution) : std::nullopt;
+  auto moved = !left || charts->size() <= kFewCharts ? forecast_anew(run, *atlas) : std::nullopt;
   if (!left && !moved) return std::nullopt;
   const bool stays = left && (!moved || left->end.outcome.energy + bias.in_place <= moved->end.outcome.energy + bias.anew);
   if (stays) out.in_place_of = present;

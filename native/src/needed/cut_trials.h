@@ -58,7 +58,6 @@ struct Bias {
 struct ForecastTerms {
   double most_growth;  ///< as Trial::growth
   Bias bias = {};      ///< with it they foresee what they will end with
-  double aim = 0;      ///< E_d to come to: what ends far above it may be told roughly; 0 where there is none
 };
 
 /// One more cut, as far as that is told before anything is bent.

@@ -61,11 +61,14 @@ struct Grid {
 
 Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options, Watch& watch) {
   const int n = static_cast<int>(outlines.size());
-  double dilated_area = area + 0.25 * std::numbers::pi * options.gap * options.gap * n, longest = 0;  // corners add a disk
+  double dilated_area = area, longest = 0;
   for (const Outline& outline : outlines) {
     dilated_area += 0.5 * options.gap * boundary_length(outline);
     longest = std::max(longest, length_of(outline) + options.gap);
   }
+  // With half the gap around it each chart has the parts of a disk at its corners.
+  const double disks = 0.25 * std::numbers::pi * options.gap * options.gap * n;
+  dilated_area = n > kManyCharts ? dilated_area + disks : std::max(dilated_area, disks);
   Grid grid;
   const double cells = n > kTooManyToCompact ? kCellsOfTooMany : n > kManyCharts ? kCellsOfMany : kCells;
   const double least = options.search == PackSearch::Thorough ? kCells : kRoughCells;

@@ -123,12 +123,10 @@ Forecast forecast_of(const std::vector<Chart>& charts, const std::optional<Coars
   return out;
 }
 
-/// What a forecast may take: cuts that leave charts jammed for longer are not those that pay. Only coarse charts are told
-/// roughly: without such what is forecast is the end itself.
-SqueezeOptions briefly(SqueezeOptions options, bool coarse) {
+/// What a forecast may take: cuts that leave charts jammed for longer are not those that pay.
+SqueezeOptions briefly(SqueezeOptions options) {
   constexpr int kForecastIterations = 150;
   options.max_iterations = kForecastIterations;
-  if (!coarse) options.aim = 0;
   return options;
 }
 
@@ -166,7 +164,7 @@ Forecast forecast_squeeze(const std::vector<Chart>& charts, const Objective& obj
   const Objective& own = coarse ? coarse->objective : objective;
   const PlacedCharts rough = coarse ? restricted(*coarse, {.charts = charts}) : PlacedCharts{.charts = charts};
   const PlacedCharts start = place(rough.charts, own);
-  return forecast_of(charts, coarse, own, squeeze_directly({start}, own, briefly(options, coarse.has_value()), monitor));
+  return forecast_of(charts, coarse, own, squeeze_directly({start}, own, briefly(options), monitor));
 }
 
 std::optional<Squeezed> squeeze_as_forecast(const std::vector<Chart>& charts, const Objective& objective,
@@ -183,7 +181,7 @@ Forecast forecast_squeeze_on(const PlacedCharts& start, const Objective& objecti
   const Objective& own = coarse ? coarse->objective : objective;
   const PlacedCharts rough = coarse ? restricted(*coarse, start) : start;
   return forecast_of(start.charts, coarse, own,
-                     {.gap = gap, .outcome = squeeze_on(rough, own, gap, warm, briefly(options, coarse.has_value()), monitor)});
+                     {.gap = gap, .outcome = squeeze_on(rough, own, gap, warm, briefly(options), monitor)});
 }
 
 }  // namespace atlas_refine

@@ -221,20 +221,13 @@ void count_unrewarded(const Task& task, const Iterate& at, const Schedule& sched
   if (rewarded) counters.rewarded_at = at.energy;
 }
 
-/// Less is not waited for.
-double least_change(const ReduceProblem& problem, double energy) {
-  constexpr double kOfTheWay = 0.05;  // that is left to the aim
-  const double left = problem.aim > 0 ? std::max(0.0, energy - problem.aim) : 0;
-  return problem.least_change * (energy - 1) + problem.negligible + kOfTheWay * left;
-}
-
 Counters counted(const Task& task, const Change& change, const Iterate& at, const Schedule& schedule, Counters counters) {
   const ReduceProblem& problem = task.problem;
   const double deficit = task.deficit(at, schedule.margin);
   const bool on_target = !task.bounded() || std::abs(deficit) < 1e-4 || (task.holds_bound(at) && at.price == 0);
   // What PE gained or lost has its price.
   const double moved = std::abs(change.energy - (at.pe > 0 ? at.price * change.pe / at.pe : 0));
-  const bool quiet = moved < least_change(problem, at.energy) && at.fraction > 0.1;
+  const bool quiet = moved < problem.least_change * (at.energy - 1) + problem.negligible && at.fraction > 0.1;
   const bool calm =
       on_target && quiet && schedule.damping <= kTelling && settled(schedule, task.view(at, schedule.margin), at.price);
   counters.calm = calm ? counters.calm + 1 : 0;

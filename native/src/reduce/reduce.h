@@ -46,7 +46,6 @@ struct ReduceProblem {
   double enough_distortion = 0;  ///< stop as soon as the bound holds and the objective is at most this; 0 = go to the optimum
   double least_change = 2e-4;    ///< at the optimum where the objective - 1 changes by less, relative, twice in a row
   double negligible = 1e-8;      ///< or by less than this; what the present price gives for a change of PE is left out
-  double aim = 0;  ///< an objective to come to: the farther above it, the larger changes are no more waited for; 0 = none
   DistortionLimits limits = {};  ///< on the surface: give up the climb once one is exceeded at its least
   double max_rise = 0;  ///< give up the climb where the objective exceeds its least so far by this factor - 1; 0 = no limit
   double most_energy =

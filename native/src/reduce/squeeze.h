@@ -21,7 +21,6 @@ struct SqueezeOptions {
   Freedoms freedom = {};       ///< of the charts; fixed ones need starts in a frame
   double least_change = 5e-4;  ///< ReduceProblem::least_change: the last 1e-5 of E_d took a third of all iterations
   double negligible = 1e-6;    ///< ReduceProblem::negligible
-  double aim = 0;              ///< ReduceProblem::aim
   int max_iterations = ReduceProblem::kMostIterations;  ///< of each reduction
   Stored stored = Stored::Double;
 };
