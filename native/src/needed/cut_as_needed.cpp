@@ -71,13 +71,19 @@ class Search {
     } else {
       look_for_best();
     }
-    SqueezedTrial& chosen =
-        options_.point ? found_.point(*options_.point) : symmetric(trials_, wish_, found_.best(wish_), step(), found_);
+    SqueezedTrial& chosen = choose();
     chosen.solution.cuts = found_.report(chosen.trial);
     return std::move(chosen);
   }
 
  private:
+  /// Of a trade-off what is listed is what can be picked from it in another run: no more is tried.
+  SqueezedTrial& choose() {
+    if (options_.point) return found_.point(*options_.point);
+    SqueezedTrial& best = found_.best(wish_);
+    return options_.trade_off ? best : symmetric(trials_, wish_, best, step(), found_);
+  }
+
   /// Every step has a part of what is left of the progress: most searches end soon.
   ProgressRange step() {
     const ProgressRange out = rest_.part(0, 0.3);
