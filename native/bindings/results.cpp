@@ -172,8 +172,7 @@ void bind_cut_report(py::module_& module) {
   ValueClass<TradeOff>(module, "TradeOff", "Boundary against distortion: one outcome of the search for cuts.")
       .field("boundary_growth", &TradeOff::boundary_growth)
       .field("distortion", &TradeOff::distortion)
-      .field("cuts", &TradeOff::cuts)
-      .field("squeezed", &TradeOff::squeezed);
+      .field("cuts", &TradeOff::cuts);
   ValueClass<CutReport>(module, "CutReport", "How the search for cuts went; each field is explained in the type stub.")
       .field("cuts", &CutReport::cuts)
       .field("tried", &CutReport::tried)

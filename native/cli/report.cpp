@@ -78,10 +78,7 @@ Json needed_options(const CommandLine& line) {
 Json to_json(const CutReport& cuts) {
   Json trade_off = Json::array();
   for (const TradeOff& t : cuts.trade_off)
-    trade_off.push_back({{"boundary_growth", number(t.boundary_growth)},
-                         {"distortion", number(t.distortion)},
-                         {"cuts", t.cuts},
-                         {"squeezed", t.squeezed}});
+    trade_off.push_back({{"boundary_growth", number(t.boundary_growth)}, {"distortion", number(t.distortion)}, {"cuts", t.cuts}});
   return {{"cuts", cuts.cuts},
           {"tried", cuts.tried},
           {"trade_off", trade_off},

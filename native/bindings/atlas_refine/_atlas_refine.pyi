@@ -194,8 +194,6 @@ class TradeOff:
     def distortion(self) -> float: ...  # E_d
     @property
     def cuts(self) -> int: ...
-    @property
-    def squeezed(self) -> bool: ...  # to the end; else forecast on coarse charts
     def as_dict(self) -> dict[str, Any]: ...
 
 class CutReport:

@@ -105,7 +105,6 @@ struct TradeOff {
   double boundary_growth = 0;  ///< as RefineResult::boundary_growth, of the charts that take part
   double distortion = 0;       ///< E_d
   int cuts = 0;
-  bool squeezed = false;  ///< to the end; else forecast on coarse charts, mostly within 1e-3
 };
 
 /// How the search for cuts went; only with Seams::Needed, where the input was not good enough as it is.

@@ -17,8 +17,8 @@ constexpr double kByChance = 5e-4;       // of E_d: so much more or less other p
 constexpr double kAnyGrowth = std::numeric_limits<double>::infinity();
 constexpr double kAsGood = 1.02;          // times the boundary, or the cost: what symmetric cuts may have more
 constexpr double kFewOfRectangles = 0.4;  // growth: rectangles add less to 5 of the 46 files of one chart in the bench only
-constexpr double kNear =
-    0.1;  // of the excess above the limit, or of the least cost: what is forecast so near may keep it, or be it
+// Of the excess above the limit, or of the least cost: what is forecast so near may keep it, or be it.
+constexpr double kNear = 0.1;
 
 /// Several charts are packed by chance: another packing may keep a limit of E_d that the first nearly kept.
 SqueezedTrial without_cuts(CutTrials& trials, const Wish& wish, const ProgressRange& range) {

@@ -39,7 +39,7 @@ SqueezedTrial& Outcomes::best(const Wish& wish) {
 std::vector<TradeOff> Outcomes::trade_off() const {
   std::vector<TradeOff> all;
   for (const auto& [trial, solution, fallbacks, warnings] : squeezed)
-    all.push_back({trial.growth, trial.distortion, trial.cut_count(), true});
+    all.push_back({trial.growth, trial.distortion, trial.cut_count()});
   std::stable_sort(all.begin(), all.end(), [](const TradeOff& a, const TradeOff& b) {
     return std::pair(a.boundary_growth, a.distortion) < std::pair(b.boundary_growth, b.distortion);
   });

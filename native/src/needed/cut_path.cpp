@@ -15,8 +15,8 @@ namespace {
 constexpr double kStep = 1.2;         // times the boundary that was passed
 constexpr double kLeastStep = 0.015;  // more than that, as growth
 constexpr double kRemoved = 0.2;      // of what a cut saved when it was added is lost without it, where that pays
-constexpr double kSurprise =
-    0.05;  // of the excess: what promises to be no worse than that may be better where the path is thorough
+// Of the excess: what promises to be no worse than that may be better where the path is thorough.
+constexpr double kSurprise = 0.05;
 constexpr double kStretch = 0.7;    // the part of stretch in what the path goes by, where that is limited
 constexpr std::size_t kPruned = 3;  // cuts: of fewer none is left out
 

@@ -20,8 +20,7 @@ bool same(const CutPlace& a, const CutPlace& b);
 /// Of the cuts those that have their image, or are it, among them.
 int symmetric_count(const std::vector<CutPlace>& cuts, const MirroredCuts& mirrored);
 
-/// Sets of as many cuts, of which more have their image among them: others that lie near it, or are no
-/// shorter, are put there.
+/// Sets of as many cuts, of which more have their image among them: others that lie near it, or are no shorter, are put there.
 /// Either half of the surface may be the one that the other goes by.
 std::vector<std::vector<CutPlace>> symmetric_sets(const std::vector<CutPlace>& cuts, const MirroredCuts& mirrored);
 

@@ -66,7 +66,8 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
     dilated_area += 0.5 * options.gap * boundary_length(outline);
     longest = std::max(longest, length_of(outline) + options.gap);
   }
-  // With half the gap around it each chart has the parts of a disk at its corners.
+  // With half the gap around it each chart has the parts of a disk at its corners (see room_for_gap). Few charts take little by
+  // them: there they are the least area only, as any other cell would make another packing of every atlas, by chance.
   const double disks = 0.25 * std::numbers::pi * options.gap * options.gap * n;
   dilated_area = n > kManyCharts ? dilated_area + disks : std::max(dilated_area, disks);
   Grid grid;
