@@ -228,6 +228,14 @@ TEST(Limits, WhereBendingChangesAKeptDensityAWarningSaysSo) {
   EXPECT_EQ(says, most > 0.1);
 }
 
+TEST(Limits, AChartOfHighDensityGrowsNoMoreThanOthers) {
+  // It weighs what it takes of the texture, not the twenty-fifth of that which it has on the surface.
+  const Atlas dense = at_scale(shapes::mesh(shapes::rectangle(0.06, 0.06), 0.015), 5, {3, 0});
+  const RefineResult result = refine_soundly(shapes::combine({dense, shapes::mesh(shapes::c_shape(), 0.1)}),
+                                             {.pe_bound = 0.85, .box_aspect = 1, .density = Density::Keep});
+  EXPECT_LT(result.charts[0].density_after / result.charts[0].density_before, 1.3);
+}
+
 TEST(Limits, DensitiesAreReported) {
   const Atlas atlas =
       shapes::combine({shapes::mesh(shapes::star(), 0.1), at_scale(shapes::mesh(shapes::star(), 0.1), 2, {2, 0})});

@@ -1,7 +1,8 @@
-// Shapes from the surface or a reference, scaled by density; weights from areas and importance.
+// Shapes from the surface or a reference, scaled by density; weights from areas, densities and importance.
 #include "solve/objective.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/guards.h"
@@ -13,12 +14,13 @@ namespace {
 /// Of the area of a guard that no measure counts: enough that it bends before it stops the others, too little to be felt.
 constexpr double kBarrierShare = 0.01;
 
-/// Of a triangle without one on the surface that of the shape which stands for it: what cost next to nothing would grow until the
-/// bound holds.
-double area_to_weigh(const RestTriangle& shape) {
+/// The area on the surface, or in the texture where a chart's density asks for more of that: what cost next to nothing for the
+/// texels that it takes would grow until the bound holds. So would a triangle without area on the surface: the shape that stands
+/// for it has some. `factor`: on its lengths.
+double area_to_weigh(const RestTriangle& shape, double factor) {
   constexpr double kOwn = 0.5;  // of its shape's area, which rounding is far from
   const double standing_for = 0.5 / shape.inverse_edges.determinant();
-  return shape.area > kOwn * standing_for ? shape.area : standing_for;
+  return std::max(1.0, factor * factor) * (shape.area > kOwn * standing_for ? shape.area : standing_for);
 }
 
 double surface_area(const std::vector<Chart>& pieces) {
@@ -60,7 +62,7 @@ Objective make_objective(const std::vector<Chart>& pieces, const ObjectiveReques
     for_each_element(pieces[p], [&](const Triangle& triangle, const RestTriangle& shape, double share, int face) {
       out.inverse_edges.push_back(out.unit / factors[p] * wanted_shape(request, p, triangle, shape.inverse_edges));
       const double importance = request.importance.empty() ? 1 : request.importance[face];
-      out.weight.push_back(area_to_weigh(shape) * (share > 0 ? share : kBarrierShare) * importance);
+      out.weight.push_back(area_to_weigh(shape, factors[p]) * (share > 0 ? share : kBarrierShare) * importance);
       sum += out.weight.back();
     });
   }
