@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "outlines.h"
@@ -98,6 +99,18 @@ TEST(PackCharts, SmallChartsGoIntoHolesAndBays) {
   charts.add(shapes::disk(0.35));
   const Packing packing = pack(charts, {.gap = 0.02});
   EXPECT_NEAR(packing.box.area(), 1, 1e-2);
+}
+
+TEST(PackCharts, WhatIsLongerThanTheBoxLiesAslant) {
+  // A cylinder's wall, between its caps: as long as the box upright, in a smaller one on the diagonal.
+  for (const PackSearch search : {PackSearch::Thorough, PackSearch::Fair}) {
+    Charts charts;
+    charts.add(shapes::rectangle(2 * std::numbers::pi, 2));
+    for (int cap = 0; cap < 2; ++cap) charts.add(shapes::disk(1));
+    const double side = (2 * std::numbers::pi + 2) / std::sqrt(2);
+    EXPECT_NEAR(pack(charts, {.gap = 0.01, .box_aspect = 1, .target_pe = 0.8, .search = search}).box.size().x(), side,
+                0.02 * side);
+  }
 }
 
 TEST(PackCharts, NestedShapesInterlock) {

@@ -57,7 +57,20 @@ struct Grid {
                           ///< fifths
   double cell;
   std::vector<GridChart> charts;
+  int widest_aslant = 0;  ///< of the charts that are longer than the box' sides should be
 };
+
+/// Of so many charts. Rough layouts are no nearer to the truth with turns aslant, and less alike.
+GridChart on_grid(const Outline& outline, int charts, double area, const PackOptions& options, double cell) {
+  std::vector<Turn> turns = turns_to_try(outline, charts > kManyCharts ? 1 : 2);
+  GridChart out{.rasters = {}, .aslant = turns.size()};
+  if (options.search != PackSearch::Rough) {
+    const std::vector<Turn> aslant = turns_aslant(outline, options.box_aspect, area / options.target_pe);
+    turns.insert(turns.end(), aslant.begin(), aslant.end());
+  }
+  for (const Turn& turn : turns) out.rasters.push_back(rasterise(outline, turn, 0.5 * options.gap, cell));
+  return out;
+}
 
 Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOptions& options, Watch& watch) {
   const int n = static_cast<int>(outlines.size());
@@ -79,10 +92,13 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       watch.poll(static_cast<double>(i) / n);
-      for (const Turn& turn : turns_to_try(outlines[i], n > kManyCharts ? 1 : 2))
-        grid.charts[i].rasters.push_back(rasterise(outlines[i], turn, 0.5 * options.gap, grid.cell));
+      grid.charts[i] = on_grid(outlines[i], n, area, options, grid.cell);
     }
   });
+  for (const GridChart& chart : grid.charts) {
+    for (std::size_t k = chart.aslant; k < chart.rasters.size(); ++k)
+      grid.widest_aslant = std::max(grid.widest_aslant, chart.rasters[k].width);
+  }
   return grid;
 }
 
@@ -110,6 +126,7 @@ GreedyRule random_rule(const Grid& grid, const PackOptions& options, int start, 
   const double width = aspect > 0    ? (as_before ? rng.uniform(0.98, 1.02) : rng.uniform(0.95, 1.1)) * std::sqrt(aspect)
                        : near_square ? rng.uniform(0.95, 1.1)
                                      : rng.uniform(0.7, 1.4);
+  if (start % 2 == 1) widest = std::max(widest, grid.widest_aslant);
   rule.strip_width = std::max(widest, static_cast<int>(rule.strip_width * width));
   rule.height_weight = rng.uniform(0.3, 1.2);
   rule.turn_noise = rng.uniform(0, 0.2);

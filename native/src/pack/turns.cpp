@@ -109,6 +109,20 @@ std::vector<Turn> turns_to_try(const Outline& outline, int count) {
   return turns;
 }
 
+std::vector<Turn> turns_aslant(const Outline& outline, double aspect, double area) {
+  if (aspect == 0 || outline.rotate != Rotate::Any) return {};
+  constexpr double kShorter = 0.95;  // sides of the box
+  const std::vector<Vec2> hull = convex_hull(outline);
+  const auto box_at = [&](const Turn& turn) { return box_of_aspect(turned_box(hull, turn), aspect).area(); };
+  double upright = box_at({});
+  if (upright <= area) return {};
+  for (const Turn& turn : turns_to_try(outline, 2)) upright = std::min(upright, box_at(turn));
+  if (upright <= area) return {};
+  const Turn turn = best_turn(hull, aspect);
+  if (box_at(turn) > kShorter * kShorter * upright) return {};
+  return {turn, turn.quarter_turned().quarter_turned()};
+}
+
 Turn best_turn(const Outline& outline, double aspect) {
   const std::vector<Vec2> hull = convex_hull(outline);
   if (outline.rotate == Rotate::Any) return best_turn(hull, aspect);
