@@ -6,6 +6,9 @@
 #include "input/face_areas.h"
 #include "input/pair_uses.h"
 #include "input/places.h"
+#include "input/uv_noise.h"
+#include "support/disjoint_sets.h"
+#include "support/gathered.h"
 #include "support/parallel.h"
 
 namespace atlas_refine {
@@ -105,6 +108,47 @@ void for_each_group(EdgeUses uses, const std::vector<int>& corner_faces, const s
       sorted, [&](const EdgeUse& a, const EdgeUse& b) { return group(a) == group(b); }, body);
 }
 
+/// Of the faces that edges of two faces hold together in space.
+DisjointSets shells_of(const Atlas& atlas, EdgeUses uses, const std::vector<int>& groups, const EdgeJoins& joins) {
+  DisjointSets out(atlas.face_count());
+  for_each_edge(uses, [&](EdgeUses edge) {
+    for_each_group(edge, joins.corner_faces, groups, [&](EdgeUses own) {
+      if (own.size() == 2) out.unite(joins.corner_faces[own[0].corner], joins.corner_faces[own[1].corner]);
+    });
+  });
+  return out;
+}
+
+DisjointSets charts_of(const Atlas& atlas, const EdgeJoins& joins) {
+  DisjointSets out(atlas.face_count());
+  for (std::size_t c = 0; c < joins.partners.size(); ++c) {
+    if (joins.partners[c] >= 0) out.unite(joins.corner_faces[c], joins.corner_faces[joins.partners[c]]);
+  }
+  return out;
+}
+
+/// The ambiguous uses last, within one chart, or else within one shell.
+void join_pairs(const Atlas& atlas, Joining joining, EdgeUses uses, const std::vector<int>& groups, EdgeJoins& joins) {
+  constexpr int kGrain = 8192;  // uses: fewer are not worth a thread
+  const double tolerance = joining == Joining::Exact ? 0 : uv_noise(atlas);
+  const auto first_of_edge = [&](int at) {
+    while (at > 0 && at < static_cast<int>(uses.size()) && uses[at].place_key() == uses[at - 1].place_key()) ++at;
+    return at;
+  };
+  auto ambiguous = gathered<UsePairs::Group>(static_cast<int>(uses.size()), kGrain, [&](int begin, int end, auto& claimed) {
+    UsePairs pairs(atlas, tolerance, joins, claimed);
+    const int first = first_of_edge(begin);
+    for_each_edge(uses.subspan(first, first_of_edge(end) - first), [&](EdgeUses edge) {
+      for_each_group(edge, joins.corner_faces, groups, [&](EdgeUses own) { pairs.join(own); });
+    });
+  });
+  if (ambiguous.empty()) return;
+  UsePairs pairs(atlas, tolerance, joins, ambiguous);
+  DisjointSets charts = charts_of(atlas, joins), shells = shells_of(atlas, uses, groups, joins);
+  pairs.join_within(charts);
+  pairs.join_within(shells);
+}
+
 }  // namespace
 
 void orient_faces(const Atlas& atlas, EdgeJoins& joins) {
@@ -122,10 +166,7 @@ EdgeJoins join_edges(const Atlas& atlas, Joining joining, const std::vector<int>
                            joins.senses = senses_of_faces(atlas);
                          }});
   const std::vector<EdgeUse> uses = edge_uses(atlas, joins.places, threads);
-  UsePairs pairs(atlas, joining, joins);
-  for_each_edge(uses,
-                [&](EdgeUses edge) { for_each_group(edge, joins.corner_faces, groups, [&](EdgeUses own) { pairs.join(own); }); });
-  pairs.join_ambiguous();
+  join_pairs(atlas, joining, uses, groups, joins);
   orient_faces(atlas, joins);
   for_each_edge(uses, [&](EdgeUses edge) { count_seam(atlas, edge, joins); });
   return joins;

@@ -19,7 +19,7 @@ struct EdgeJoins {
   std::vector<int> places;         ///< of each vertex the first vertex that lies where it does
   std::vector<int> corner_faces;   ///< face of each corner
   std::vector<int> partners;       ///< one per corner: the edge it is joined with, -1 at seams and natural boundary
-  std::vector<bool> alike;         ///< one per corner: its partner runs in the same sense: faces wound against each other
+  std::vector<char> alike;         ///< one per corner: its partner runs in the same sense: faces wound against each other
   std::vector<int> senses;         ///< one per face: the sign of its UV area as it is wound
   std::vector<bool> turned_faces;  ///< faces wound against the first face of their chart
   int seam_edges = 0;              ///< edges in space that belong to two faces or more and are not joined throughout

@@ -39,14 +39,10 @@ double uv_length(const Atlas& atlas, const EdgeUse& use) {
 
 }  // namespace
 
-UsePairs::UsePairs(const Atlas& atlas, Joining joining, EdgeJoins& joins)
-    : atlas_(atlas), joins_(joins), tolerance_(joining == Joining::Exact ? 0 : uv_noise(atlas)), shells_(atlas.face_count()) {}
-
 void UsePairs::join(EdgeUses uses) {
   if (uses.size() < 2) return;
   if (uses.size() == 2) {
     const EdgeUse &a = uses[0], &b = uses[1];
-    shells_.unite(joins_.corner_faces[a.corner], joins_.corner_faces[b.corner]);
     // Nearly all edges have two uses that agree: those need no order.
     if (a.vertex_key() == b.vertex_key() && a.uv_key(atlas_) == b.uv_key(atlas_)) join_equal(uses);
     if (joins_.partners[a.corner] >= 0) return;
@@ -162,17 +158,7 @@ void UsePairs::join_sheets(const Group& left, const Group& right) {
   both.insert(both.end(), right.begin(), right.end());
 }
 
-void UsePairs::join_ambiguous() {
-  if (ambiguous_.empty()) return;
-  DisjointSets charts(atlas_.face_count());
-  for (std::size_t c = 0; c < joins_.partners.size(); ++c) {
-    if (joins_.partners[c] >= 0) charts.unite(joins_.corner_faces[c], joins_.corner_faces[joins_.partners[c]]);
-  }
-  join_within(charts);
-  join_within(shells_);
-}
-
-/// Joins those of the ambiguous uses that are the only ones of their part at their edge, one on either side.
+/// Those that are the only ones of their part at their edge, one on either side.
 void UsePairs::join_within(DisjointSets& parts) {
   const auto part = [&](const EdgeUse& use) { return parts.find(joins_.corner_faces[use.corner]); };
   for (const Group& group : ambiguous_) {

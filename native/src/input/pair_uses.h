@@ -8,20 +8,21 @@
 
 namespace atlas_refine {
 
-/// Joins uses of one edge after the other; what more than two sheets claim is kept for the end.
+/// Joins uses of one edge after the other; edges may be dealt out to several of these.
 class UsePairs {
  public:
-  UsePairs(const Atlas& atlas, Joining joining, EdgeJoins& joins);
+  using Group = std::vector<EdgeUse>;
+
+  /// `tolerance`: of UVs, 0 where they must be equal. `ambiguous` gets what more than two sheets claim.
+  UsePairs(const Atlas& atlas, double tolerance, EdgeJoins& joins, std::vector<Group>& ambiguous)
+      : atlas_(atlas), joins_(joins), tolerance_(tolerance), ambiguous_(ambiguous) {}
 
   /// All uses of one edge in space.
   void join(EdgeUses uses);
-  /// Once all edges have been joined: the ambiguous ones, where one pair of the uses belongs to one chart already, or else to one
-  /// shell, which is what edges of two faces hold together in space.
-  void join_ambiguous();
+  /// Once all edges have been joined: the ambiguous ones, where one pair of the uses belongs to one of these parts.
+  void join_within(DisjointSets& parts);
 
  private:
-  using Group = std::vector<EdgeUse>;
-
   /// Two uses of a group that may be joined, the better the smaller the key.
   struct Candidate {
     bool other_sense;  // wound the other way round in the UV plane: the back of a sheet
@@ -39,7 +40,6 @@ class UsePairs {
   void join_equal(EdgeUses uses);
   void join_sheets(const Group& left, const Group& right);
   void join_near(Group group);
-  void join_within(DisjointSets& parts);
   std::vector<Candidate> near_pairs(const Group& group) const;
   std::vector<int> layers(const Group& group) const;
   void unite(const EdgeUse& a, const EdgeUse& b, bool crosswise = false);
@@ -52,9 +52,8 @@ class UsePairs {
 
   const Atlas& atlas_;
   EdgeJoins& joins_;
-  double tolerance_;  // of UVs, 0 where they must be equal
-  std::vector<Group> ambiguous_;
-  DisjointSets shells_;  // of faces
+  double tolerance_;
+  std::vector<Group>& ambiguous_;
 };
 
 }  // namespace atlas_refine

@@ -180,20 +180,25 @@ ChartSet split_charts(const Atlas& atlas, Joining joining, const std::vector<int
   std::vector<std::array<int, 2>> parted;
   if (joining == Joining::AsMeant) parted = part_folds(atlas, joins);
   const FaceCharts face_charts = number_charts(atlas, joins);
-  const ChartSides sides = orient_charts(atlas, joins, face_charts);
   ChartSet set;
+  ChartSides sides;
+  side_by_side(threads, {[&] { set.corners = number_vertices(atlas, joins, face_charts); },
+                         [&] { sides = orient_charts(atlas, joins, face_charts); }});
   set.seam_edges = joins.seam_edges;
   set.seam_length = joins.seam_length;
   set.folds = folds_of(joins, face_charts, parted);
   set.mirrored = sides.mirrored;
   set.mixed_winding = sides.mixed;
-  set.corners = number_vertices(atlas, joins, face_charts);
-  set.points = at_vertices<int>(set.corners, face_charts.count, [&](int c) { return joins.places[atlas.corner_vertices[c]]; });
-  set.charts = charts_with_uvs(atlas, set, joining);
+  const auto points_and_uvs = [&] {
+    set.points = at_vertices<int>(set.corners, face_charts.count, [&](int c) { return joins.places[atlas.corner_vertices[c]]; });
+    set.charts = charts_with_uvs(atlas, set, joining);
+  };
+  std::vector<std::vector<Vec3>> positions;
+  side_by_side(threads, {points_and_uvs, [&] { positions = vertex_positions(atlas, set.corners, face_charts.count); }});
   FaceTriangles faces = triangulate_faces(atlas, set.corners, sides.turned_faces, set.charts);
   set.defects = std::move(faces.defects);
   set.readings = std::move(faces.readings);
-  side_by_side(threads, {[&] { set_surfaces(set.charts, vertex_positions(atlas, set.corners, set.charts.size())); },
+  side_by_side(threads, {[&] { set_surfaces(set.charts, positions); },
                          [&] {
                            for (Chart& chart : set.charts) chart.boundary_loops = boundary_loops(chart);
                          }});

@@ -25,25 +25,22 @@ std::vector<int> leaders_first(const ChartSet& set, std::vector<int> charts, con
   return charts;
 }
 
-/// The longer side of the box of each triangle.
-std::vector<double> extents_of_triangles(const Chart& chart) {
-  std::vector<double> out;
-  for (const Triangle& t : chart.triangles)
-    out.push_back(box_of_points({chart.uvs[t[0]], chart.uvs[t[1]], chart.uvs[t[2]]}).size().maxCoeff());
-  return out;
+/// The longer side of the triangle's box.
+double extent_of(const Chart& chart, const Triangle& t) {
+  const Vec2 &a = chart.uvs[t[0]], &b = chart.uvs[t[1]], &c = chart.uvs[t[2]];
+  return (a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c)).maxCoeff();
 }
 
 /// Whether the triangles up to that extent lie on a point or a line.
-bool is_point_or_line(const Chart& chart, const std::vector<double>& extents, double longest, double box_side) {
-  std::vector<Vec2> points;
+bool is_point_or_line(const Chart& chart, double longest, double box_side) {
+  Box box{Vec2::Constant(INFINITY), Vec2::Constant(-INFINITY)};
   double area = 0;
-  for (std::size_t t = 0; t < extents.size(); ++t) {
-    if (extents[t] > longest) continue;
-    const Triangle& corners = chart.triangles[t];
-    for (const int v : corners) points.push_back(chart.uvs[v]);
-    area += 0.5 * std::abs(doubled_area(chart.uvs[corners[0]], chart.uvs[corners[1]], chart.uvs[corners[2]]));
+  for (const Triangle& t : chart.triangles) {
+    if (extent_of(chart, t) > longest) continue;
+    for (const int v : t) box = {box.min.cwiseMin(chart.uvs[v]), box.max.cwiseMax(chart.uvs[v])};
+    area += 0.5 * std::abs(doubled_area(chart.uvs[t[0]], chart.uvs[t[1]], chart.uvs[t[2]]));
   }
-  const double length = box_of_points(points).size().maxCoeff();
+  const double length = box.size().maxCoeff();
   return length <= kCollapsed * box_side || area <= kCollapsed * length * std::max(length, box_side);
 }
 
@@ -63,9 +60,10 @@ int group_of(const Chart& chart, const std::vector<int>& groups) {
 }
 
 bool is_collapsed(const Chart& chart, double box_side) {
-  const std::vector<double> extents = extents_of_triangles(chart);
-  if (!is_point_or_line(chart, extents, INFINITY, box_side)) return false;
-  return is_point_or_line(chart, extents, kFar * median(extents), box_side);
+  if (!is_point_or_line(chart, INFINITY, box_side)) return false;
+  std::vector<double> extents;
+  for (const Triangle& t : chart.triangles) extents.push_back(extent_of(chart, t));
+  return is_point_or_line(chart, kFar * median(std::move(extents)), box_side);
 }
 
 double collapse_side(const ChartSet& set) {
