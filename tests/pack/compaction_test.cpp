@@ -62,5 +62,25 @@ TEST(Compaction, RandomChartsNeverGetWorse) {
   }
 }
 
+TEST(Compaction, ChartsThatAreTooNearAreDrawnApart) {
+  for (int seed = 1; seed <= 10; ++seed) {
+    std::vector<Outline> outlines;
+    std::vector<Placement> start;
+    for (int k = 0; k < 9; ++k) {
+      // Long zigzags beside each other: corners of one go into bays of the next.
+      shapes::Polygon zigzag;
+      for (int j = 0; j <= 20; ++j) zigzag.outer.push_back({0.05 * j, 0.02 * (j % 2)});
+      for (int j = 20; j >= 0; --j) zigzag.outer.push_back({0.05 * j, 0.02 * (j % 2) + 0.03});
+      outlines.push_back(testing::outline_of(zigzag));
+      start.push_back({1, 0, {0.0005 * ((seed * k) % 7), 0.034 * k}});
+    }
+    ASSERT_LT(testing::smallest_distance(outlines, start), 0.004);
+    const auto result = compact(outlines, start, options_for(0.005));
+    ASSERT_EQ(result.size(), outlines.size());
+    EXPECT_GE(testing::smallest_distance(outlines, result), 0.005);
+    EXPECT_LT(placed_box(outlines, result).area(), 1.2 * placed_box(outlines, start).area());
+  }
+}
+
 }  // namespace
 }  // namespace atlas_refine

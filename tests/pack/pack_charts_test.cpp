@@ -162,6 +162,18 @@ TEST(PackCharts, MuchSmallerThanTheGap) {
   EXPECT_LT(pack(random_charts(7, 3), {.gap = kGap, .box_aspect = 1}).box.size().x(), 1.2 * kGap / 0.5359);
 }
 
+TEST(PackCharts, ALayoutGetsALargerGapWithoutAnotherSearch) {
+  for (const double aspect : {0.0, 1.0}) {
+    const Charts charts = random_charts(12, 40);
+    const PackOptions options{.gap = 0.01, .box_aspect = aspect}, wider{.gap = 0.015, .box_aspect = aspect};
+    const Packing packing = pack(charts, options);
+    const auto apart = with_larger_gap(charts.outlines, charts.areas, packing, wider);
+    ASSERT_TRUE(apart);
+    expect_sound(charts, wider, *apart);
+    EXPECT_GT(apart->pe, 0.95 * packing.pe);
+  }
+}
+
 TEST(PackCharts, SameBitsForEveryNumberOfThreads) {
   const Charts charts = random_charts(12, 3);
   PackOptions options{.gap = 0.01, .seed = 5};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "geometry/boundary.h"
 #include "geometry/box_tree.h"
@@ -199,6 +200,9 @@ class Program {
       const int a = scene_.edges[p.edge].chart, b = scene_.edges[q.edge].chart;
       return a != b ? a < b : p.distance != q.distance ? p.distance < q.distance : p.edge < q.edge;
     });
+    // A farther edge in much the same direction is left to the next, shorter
+    // step; but to none after the last ones.
+    const double alike = turning_ ? 0.9 : 1 - 1e-9;
     std::vector<Vec2> normals;
     int faced = -1;
     for (const Contact& contact : near) {
@@ -206,9 +210,7 @@ class Program {
       if (chart != faced) normals.clear();
       faced = chart;
       const Vec2 normal = (edge.a - contact.foot) / contact.distance;
-      // A farther edge in much the same direction is left to the next, shorter
-      // step.
-      if (std::any_of(normals.begin(), normals.end(), [&](const Vec2& n) { return n.dot(normal) > 0.9; })) continue;
+      if (std::any_of(normals.begin(), normals.end(), [&](const Vec2& n) { return n.dot(normal) > alike; })) continue;
       normals.push_back(normal);
       auto& row = inequalities_.emplace_back();
       add_motion(row, edge.chart, edge.a, normal);
@@ -263,6 +265,90 @@ std::vector<Placement> moved(const std::vector<Placement>& placements, const Sce
 /// Log of the area of the box that the asked aspect needs.
 double box_cost(const Box& box, double aspect) { return std::log(box_of_aspect(box, aspect).area()); }
 
+class Compaction {
+ public:
+  Compaction(const std::vector<Outline>& outlines, const std::vector<Placement>& placements, const CompactionOptions& options)
+      : outlines_(outlines), options_(options), now_(placed(placements)), diagonal_(now_.scene.box.diagonal()) {
+    // Aimed a little above the gap, so that round-off does not fall below it.
+    // Charts must not touch even without a gap.
+    gap_ = std::max((1 + 1e-9) * options.gap, 1e-6 * diagonal_);
+    keep();
+  }
+
+  std::vector<Placement> run() {
+    shrink();
+    settle();
+    return std::move(best_);
+  }
+
+ private:
+  struct State {
+    std::vector<Placement> placements;
+    Scene scene;
+    BoxTree tree;
+    double reached;  ///< least distance of two charts
+    double cost;
+  };
+
+  State placed(std::vector<Placement> placements) const {
+    Scene scene = make_scene(outlines_, placements);
+    BoxTree tree = edge_tree(scene);
+    const double reached = smallest_gap(scene, tree), cost = box_cost(scene.box, options_.box_aspect);
+    return {std::move(placements), std::move(scene), std::move(tree), reached, cost};
+  }
+
+  /// One program from the present state, unless it cannot be solved or charts come too near each other.
+  std::optional<State> after(double step, bool turning) const {
+    const Eigen::VectorXd motion = Program(now_.scene, now_.tree, options_, gap_, step, turning).solve();
+    if (motion.size() == 0) return std::nullopt;
+    State out = placed(moved(now_.placements, now_.scene, motion, turning));
+    if (out.reached < 0.5 * gap_) return std::nullopt;
+    return out;
+  }
+
+  void keep() {
+    if (now_.reached < options_.gap || now_.cost >= best_cost_) return;
+    best_cost_ = now_.cost;
+    best_ = now_.placements;
+  }
+
+  void shrink() {
+    constexpr int kIterations = 30;
+    double step = options_.first_step;
+    for (int iteration = 0; iteration < kIterations && step > 2e-5 * diagonal_; ++iteration) {
+      // The last, short steps only shift: there the linear program is exact, and
+      // the gap comes out as asked.
+      const bool turning = iteration < kIterations - 2 && step > 1e-4 * diagonal_;
+      auto trial = after(step, turning);
+      if (!trial) {
+        step /= 4;
+        continue;
+      }
+      if (trial->cost > now_.cost - 1e-3) step /= 2;
+      now_ = std::move(*trial);
+      keep();
+    }
+  }
+
+  /// Where that left charts a little too near each other: short steps, of which only shifts are exact.
+  void settle() {
+    constexpr int kIterations = 8;
+    constexpr double kInTurn = 8;  // charts that push each other
+    for (int iteration = 0; iteration < kIterations && now_.reached < options_.gap && now_.cost < best_cost_; ++iteration) {
+      auto trial = after(std::max(2e-5 * diagonal_, kInTurn * (gap_ - now_.reached)), false);
+      if (!trial) return;
+      now_ = std::move(*trial);
+      keep();
+    }
+  }
+
+  const std::vector<Outline>& outlines_;
+  const CompactionOptions& options_;
+  State now_;
+  double diagonal_, gap_ = 0, best_cost_ = INFINITY;
+  std::vector<Placement> best_;
+};
+
 }  // namespace
 
 Box placed_box(const std::vector<Outline>& outlines, const std::vector<Placement>& placements) {
@@ -271,45 +357,7 @@ Box placed_box(const std::vector<Outline>& outlines, const std::vector<Placement
 
 std::vector<Placement> compact(const std::vector<Outline>& outlines, const std::vector<Placement>& placements,
                                const CompactionOptions& options) {
-  constexpr int kIterations = 30;
-  Scene scene = make_scene(outlines, placements);
-  BoxTree tree = edge_tree(scene);
-  const double diagonal = scene.box.diagonal();
-  // Aimed a little above the gap, so that round-off does not fall below it.
-  // Charts must not touch even without a gap.
-  const double gap = std::max((1 + 1e-9) * options.gap, 1e-6 * diagonal);
-  double cost = box_cost(scene.box, options.box_aspect), best_cost = cost;
-  std::vector<Placement> state = placements, best = placements;
-  double step = options.first_step;
-  for (int iteration = 0; iteration < kIterations && step > 2e-5 * diagonal; ++iteration) {
-    // The last, short steps only shift: there the linear program is exact, and
-    // the gap comes out as asked.
-    const bool turning = iteration < kIterations - 2 && step > 1e-4 * diagonal;
-    const Eigen::VectorXd motion = Program(scene, tree, options, gap, step, turning).solve();
-    if (motion.size() == 0) {
-      step /= 4;
-      continue;
-    }
-    std::vector<Placement> trial = moved(state, scene, motion, turning);
-    Scene trial_scene = make_scene(outlines, trial);
-    BoxTree trial_tree = edge_tree(trial_scene);
-    const double reached = smallest_gap(trial_scene, trial_tree);
-    if (reached < 0.5 * gap) {
-      step /= 4;
-      continue;
-    }
-    const double trial_cost = box_cost(trial_scene.box, options.box_aspect);
-    if (trial_cost > cost - 1e-3) step /= 2;
-    state = std::move(trial);
-    scene = std::move(trial_scene);
-    tree = std::move(trial_tree);
-    cost = trial_cost;
-    if (reached >= options.gap && cost < best_cost) {
-      best_cost = cost;
-      best = state;
-    }
-  }
-  return best;
+  return Compaction(outlines, placements, options).run();
 }
 
 }  // namespace atlas_refine

@@ -19,9 +19,10 @@ struct CompactionOptions {
 /// Bounding box of the placed outlines.
 Box placed_box(const std::vector<Outline>& outlines, const std::vector<Placement>& placements);
 
-/// Improves placements that are at least the gap apart by sequential linear
-/// programming over all rigid motions. The answer is at least the gap apart
-/// again (measured on the outlines as placed), and its box is no larger.
+/// Improves placements by sequential linear programming over all rigid motions.
+/// The answer is at least the gap apart (measured on the outlines as placed),
+/// and its box is no larger where the placements were so, too. Those that are
+/// nearer are drawn apart; nothing comes back where that fails.
 std::vector<Placement> compact(const std::vector<Outline>& outlines, const std::vector<Placement>& placements,
                                const CompactionOptions& options);
 

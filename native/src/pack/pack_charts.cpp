@@ -17,12 +17,9 @@ namespace {
 // Beyond the gap, so that rounding it does not matter.
 constexpr double kRounding = 1e-6;
 
-std::vector<Placement> place_many(const std::vector<Outline>& outlines, double area, const PackOptions& options) {
-  const CanonicalOutlines canonical = canonical_outlines(outlines, std::sqrt(area));
-  PackOptions unit = options;
-  unit.gap = static_cast<float>((1 + kRounding) * options.gap / canonical.unit);
-  unit.gap += 2 * canonical.off_grid;
-  return canonical.of_input(search_on_grid(canonical.outlines, 1, unit));
+/// In units of the canonical outlines.
+double gap_between(const CanonicalOutlines& canonical, const PackOptions& options) {
+  return static_cast<float>((1 + kRounding) * options.gap / canonical.unit) + 2 * canonical.off_grid;
 }
 
 /// Of turns that are equally good the one that the outline's own shape tells; a chart that is turned by quarters only stays
@@ -40,23 +37,53 @@ Placement place_one(const Outline& outline, double area, double box_aspect) {
   return {turn.cosine, turn.sine, Vec2::Zero()};
 }
 
+double sum_of(const std::vector<double>& areas) {
+  double out = 0;
+  for (const double area : areas) out += area;
+  return out;
+}
+
+Packing packing_of(const std::vector<Outline>& outlines, std::vector<Placement> placements, double area, double aspect) {
+  Packing out{.placements = std::move(placements), .box = {}};
+  const Box box = placed_box(outlines, out.placements);
+  for (Placement& placement : out.placements) placement.offset -= box.min;
+  out.box = box_of_aspect({Vec2::Zero(), box.size()}, aspect);
+  out.pe = out.box.area() > 0 ? area / out.box.area() : 0;
+  return out;
+}
+
+Packing packing_of(const std::vector<Outline>& outlines, const CanonicalOutlines& canonical, std::vector<Placement> placements,
+                   double area, double aspect) {
+  Packing out = packing_of(outlines, canonical.of_input(placements), area, aspect);
+  out.canonical = std::move(placements);
+  return out;
+}
+
 }  // namespace
 
 Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<double>& areas, const PackOptions& options) {
-  Packing packing;
-  if (outlines.empty()) return packing;
-  double area = 0;
-  for (const double chart_area : areas) area += chart_area;
-  if (outlines.size() == 1) {
-    packing.placements.push_back(place_one(outlines[0], area, options.box_aspect));
-  } else {
-    packing.placements = place_many(outlines, area, options);
-  }
-  const Box box = placed_box(outlines, packing.placements);
-  for (Placement& placement : packing.placements) placement.offset -= box.min;
-  packing.box = box_of_aspect({Vec2::Zero(), box.size()}, options.box_aspect);
-  packing.pe = packing.box.area() > 0 ? area / packing.box.area() : 0;
-  return packing;
+  if (outlines.empty()) return {};
+  const double area = sum_of(areas);
+  if (outlines.size() == 1)
+    return packing_of(outlines, {place_one(outlines[0], area, options.box_aspect)}, area, options.box_aspect);
+  const CanonicalOutlines canonical = canonical_outlines(outlines, std::sqrt(area));
+  PackOptions unit = options;
+  unit.gap = gap_between(canonical, options);
+  return packing_of(outlines, canonical, search_on_grid(canonical.outlines, 1, unit), area, options.box_aspect);
+}
+
+std::optional<Packing> with_larger_gap(const std::vector<Outline>& outlines, const std::vector<double>& areas,
+                                       const Packing& packing, const PackOptions& options) {
+  constexpr double kFirstStep = 0.01;  // sides of a square that holds the charts
+  if (packing.canonical.empty() || outlines.size() > kManyCharts) return std::nullopt;
+  const double area = sum_of(areas);
+  const CanonicalOutlines canonical = canonical_outlines(outlines, std::sqrt(area));
+  const CompactionOptions compaction{gap_between(canonical, options), options.box_aspect, kFirstStep, [&] {
+                                       if (options.tick) options.tick(1);
+                                     }};
+  std::vector<Placement> placements = compact(canonical.outlines, packing.canonical, compaction);
+  if (placements.empty()) return std::nullopt;
+  return packing_of(outlines, canonical, std::move(placements), area, options.box_aspect);
 }
 
 }  // namespace atlas_refine

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "atlas_refine/options.h"
@@ -56,6 +57,8 @@ struct Packing {
   Box box;                            ///< of the placed outlines (of the asked aspect where that is
                                       ///< fixed), min = (0, 0)
   double pe = 0;                      ///< sum(area) / box area
+  /// The same of two outlines and more as canonical_outlines() tells them: what goes on from there depends on nothing else.
+  std::vector<Placement> canonical = {};
 };
 
 /// `areas[i]` is the UV area of outline i. Distances between placed outlines
@@ -63,5 +66,10 @@ struct Packing {
 /// than asked). Deterministic for a seed, whatever the number of threads.
 /// Near-linear in charts.
 Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<double>& areas, const PackOptions& options);
+
+/// The same layout with the gap of `options`, which is a little larger. Nothing where charts do not come that far apart, or are
+/// so many that packing them anew takes less.
+std::optional<Packing> with_larger_gap(const std::vector<Outline>& outlines, const std::vector<double>& areas,
+                                       const Packing& packing, const PackOptions& options);
 
 }  // namespace atlas_refine

@@ -146,7 +146,8 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
     const auto next = next_gap(room, pack.gap, packing, wanted());
     if (round == kRounds || !next) refuse_gap(options.gap, charts.size());
     pack.gap = (kFirstMore + 0.01 * round) * *next;
-    packing = pack_charts(outlines, areas, pack);
+    const auto apart = options.search == PackSearch::Thorough ? with_larger_gap(outlines, areas, packing, pack) : std::nullopt;
+    packing = apart ? *apart : pack_charts(outlines, areas, pack);
   }
   for (std::size_t c = 0; c < placed.size(); ++c) {
     for (Vec2& uv : placed[c].uvs) uv = packing.placements[c].apply(uv);
