@@ -10,8 +10,9 @@ import numpy as np
 import shapes
 from support import MODULE, add_mesh, changes, fresh_scene, get_uvs, packing_efficiency, snapshot
 
-#: Edit mode takes at most twice object mode's time; a loaded machine may make more of it.
-MOST_TIMES = 3
+#: Of object mode's time and of what Blender takes to write each corner once, which in 4.2 alone is more than object mode's: edit mode
+#: takes 1.1 to 1.4 times as long, and three times or more if it reads corner by corner.
+MOST_TIMES = 2
 
 
 class EditMode(unittest.TestCase):
@@ -91,28 +92,42 @@ class Speed(unittest.TestCase):
         fresh_scene()
 
     def seconds(self, obj, mode):
-        """Of reading an atlas and of writing it, of the processor's time; the least of several."""
+        """Of reading an atlas and of writing it, of the processor's time."""
         atlas_module, bridge = sys.modules[f"{MODULE}.atlas"], sys.modules[f"{MODULE}.bridge.mesh"]
         at_once = sys.modules[f"{MODULE}.core.steps"].at_once
         options = sys.modules[f"{MODULE}.properties"].to_options(bpy.context.scene.atlas_refine)
         bpy.ops.object.mode_set(mode=mode)
-        taken = []
-        for _ in range(5):
-            began = time.process_time()
-            atlas = atlas_module.Atlas(options, [obj])
-            at_once(atlas.read(bpy.context, [obj]))
-            (part,) = atlas.parts
-            self.assertTrue(bridge.read_atlas(obj, part.uv_map).same_as(part.atlas))
-            bridge.write_uvs(obj, part.uv_map, part.atlas.corner_uvs)
-            list(atlas.request.densities(options, 1.0))
-            taken.append(time.process_time() - began)
-        return min(taken)
+        began = time.process_time()
+        atlas = atlas_module.Atlas(options, [obj])
+        at_once(atlas.read(bpy.context, [obj]))
+        (part,) = atlas.parts
+        self.assertTrue(bridge.read_atlas(obj, part.uv_map).same_as(part.atlas))
+        bridge.write_uvs(obj, part.uv_map, part.atlas.corner_uvs)
+        list(atlas.request.densities(options, 1.0))
+        return time.process_time() - began
+
+    def seconds_of_blender(self, obj):
+        """In edit mode, of writing each corner once, of the processor's time."""
+        mesh = bmesh.from_edit_mesh(obj.data)
+        layer = mesh.loops.layers.uv.active
+        began = time.process_time()
+        for face in mesh.faces:
+            for loop in face.loops:
+                loop[layer].uv = (0.0, 0.0)
+        return time.process_time() - began
 
     def test_edit_mode_takes_about_as_long_as_object_mode(self):
-        obj = add_mesh(shapes.join(shapes.grid(150, 150)))
-        bpy.ops.object.mode_set(mode="EDIT")
-        bpy.ops.mesh.select_all(action="SELECT")
-        in_object_mode, in_edit_mode = (self.seconds(obj, mode) for mode in ("OBJECT", "EDIT"))
-        quads = len(obj.data.polygons)
-        print(f"    {quads} quads: object mode {in_object_mode:.3f} s, edit mode {in_edit_mode:.3f} s", flush=True)
-        self.assertLess(in_edit_mode, MOST_TIMES * in_object_mode)
+        """The least of several turns, in each of which what is compared runs under the same load of the machine."""
+        times = []
+        for _ in range(5):
+            obj = add_mesh(shapes.join(shapes.grid(150, 150)))
+            bpy.ops.object.mode_set(mode="EDIT")
+            bpy.ops.mesh.select_all(action="SELECT")
+            in_object_mode, in_edit_mode = (self.seconds(obj, mode) for mode in ("OBJECT", "EDIT"))
+            of_blender = self.seconds_of_blender(obj)
+            bpy.ops.object.mode_set(mode="OBJECT")
+            times.append((in_edit_mode / (in_object_mode + of_blender), in_object_mode, in_edit_mode, of_blender))
+        ratio, *seconds = min(times)
+        modes = "object mode {:.3f} s, edit mode {:.3f} s, Blender's own writing {:.3f} s".format(*seconds)
+        print(f"    {len(obj.data.polygons)} quads: {modes}: {ratio:.2f}", flush=True)
+        self.assertLess(ratio, MOST_TIMES)
