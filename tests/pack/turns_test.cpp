@@ -47,16 +47,18 @@ TEST(Turns, SmallBoxesComeInOrder) {
   EXPECT_GT(last, 0);
 }
 
-TEST(Turns, OnlyLongOutlinesLieAslant) {
-  const auto turns = [](double length, double width, double aspect, double area) {
-    return turns_aslant(testing::outline_of(shapes::rectangle(length, width)), aspect, area);
+TEST(Turns, OnlyAFewLongOutlinesLieAslant) {
+  const auto turns = [](int count, double length, double width, double aspect, double area) {
+    const std::vector<Outline> outlines(count, testing::outline_of(shapes::rectangle(length, width)));
+    return turns_aslant(outlines, aspect, area).back();
   };
-  EXPECT_TRUE(turns(2, 0.2, 0, 1).empty());
-  EXPECT_TRUE(turns(2, 0.2, 1, 4.1).empty());
-  EXPECT_TRUE(turns(2, 1.9, 1, 1).empty());
-  ASSERT_EQ(turns(2, 0.2, 1, 1).size(), 2u);
+  EXPECT_TRUE(turns(1, 2, 0.2, 0, 1).empty());
+  EXPECT_TRUE(turns(1, 2, 0.2, 1, 4.1).empty());
+  EXPECT_TRUE(turns(1, 2, 1.9, 1, 1).empty());
+  EXPECT_TRUE(turns(4, 2, 0.2, 1, 1).empty());
+  ASSERT_EQ(turns(3, 2, 0.2, 1, 1).size(), 2u);
   const auto hull = convex_hull(testing::outline_of(shapes::rectangle(2, 0.2)));
-  for (const Turn& turn : turns(2, 0.2, 1, 1)) EXPECT_NEAR(turned_box(hull, turn).size().maxCoeff(), 2.2 / std::sqrt(2), 1e-9);
+  for (const Turn& turn : turns(1, 2, 0.2, 1, 1)) EXPECT_NEAR(turned_box(hull, turn).size().maxCoeff(), 2.2 / std::sqrt(2), 1e-9);
 }
 
 TEST(Turns, DegenerateOutlinesHaveATurn) {

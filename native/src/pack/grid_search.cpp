@@ -60,14 +60,11 @@ struct Grid {
   int widest_aslant = 0;  ///< of the charts that are longer than the box' sides should be
 };
 
-/// Of so many charts. Rough layouts are no nearer to the truth with turns aslant, and less alike.
-GridChart on_grid(const Outline& outline, int charts, double area, const PackOptions& options, double cell) {
+/// Of so many charts.
+GridChart on_grid(const Outline& outline, int charts, const std::vector<Turn>& aslant, const PackOptions& options, double cell) {
   std::vector<Turn> turns = turns_to_try(outline, charts > kManyCharts ? 1 : 2);
   GridChart out{.rasters = {}, .aslant = turns.size()};
-  if (options.search != PackSearch::Rough) {
-    const std::vector<Turn> aslant = turns_aslant(outline, options.box_aspect, area / options.target_pe);
-    turns.insert(turns.end(), aslant.begin(), aslant.end());
-  }
+  turns.insert(turns.end(), aslant.begin(), aslant.end());
   for (const Turn& turn : turns) out.rasters.push_back(rasterise(outline, turn, 0.5 * options.gap, cell));
   return out;
 }
@@ -88,11 +85,14 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
   const double least = options.search == PackSearch::Thorough ? kCells : kRoughCells;
   grid.cells_per_side = std::clamp(cells * std::sqrt(n / 60.0), least, kMostCells);
   grid.cell = std::max(std::sqrt(dilated_area / 0.8), longest / kLongestChart) / grid.cells_per_side;
+  // Rough layouts are no nearer to the truth with turns aslant, and less alike.
+  const double aspect = options.search == PackSearch::Rough ? 0 : options.box_aspect;
+  const std::vector<std::vector<Turn>> aslant = turns_aslant(outlines, aspect, area / options.target_pe);
   grid.charts.resize(n);
   parallel_ranges(n, resolve_threads(options.threads), 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       watch.poll(static_cast<double>(i) / n);
-      grid.charts[i] = on_grid(outlines[i], n, area, options, grid.cell);
+      grid.charts[i] = on_grid(outlines[i], n, aslant[i], options, grid.cell);
     }
   });
   for (const GridChart& chart : grid.charts) {

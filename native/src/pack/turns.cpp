@@ -109,18 +109,25 @@ std::vector<Turn> turns_to_try(const Outline& outline, int count) {
   return turns;
 }
 
-std::vector<Turn> turns_aslant(const Outline& outline, double aspect, double area) {
-  if (aspect == 0 || outline.rotate != Rotate::Any) return {};
-  constexpr double kShorter = 0.95;  // sides of the box
-  const std::vector<Vec2> hull = convex_hull(outline);
-  const auto box_at = [&](const Turn& turn) { return box_of_aspect(turned_box(hull, turn), aspect).area(); };
-  double upright = box_at({});
-  if (upright <= area) return {};
-  for (const Turn& turn : turns_to_try(outline, 2)) upright = std::min(upright, box_at(turn));
-  if (upright <= area) return {};
-  const Turn turn = best_turn(hull, aspect);
-  if (box_at(turn) > kShorter * kShorter * upright) return {};
-  return {turn, turn.quarter_turned().quarter_turned()};
+std::vector<std::vector<Turn>> turns_aslant(const std::vector<Outline>& outlines, double aspect, double area) {
+  constexpr int kMost = 3;          // on the diagonal: more are best left upright, side by side
+  constexpr double kSmaller = 0.9;  // than the box that holds it upright
+  std::vector<std::vector<Turn>> out(outlines.size());
+  const auto box_at = [&](const std::vector<Vec2>& points, const Turn& turn) {
+    return box_of_aspect(turned_box(points, turn), aspect).area();
+  };
+  int count = 0;
+  for (std::size_t k = 0; k < outlines.size() && aspect > 0; ++k) {
+    if (outlines[k].rotate != Rotate::Any || box_at(outlines[k].loops[0], {}) <= area) continue;
+    const std::vector<Vec2> hull = convex_hull(outlines[k]);
+    double upright = INFINITY;
+    for (const Turn& turn : turns_to_try(outlines[k], 2)) upright = std::min(upright, box_at(hull, turn));
+    if (upright <= area) continue;
+    if (++count > kMost) return std::vector<std::vector<Turn>>(outlines.size());
+    const Turn turn = best_turn(hull, aspect);
+    if (box_at(hull, turn) < kSmaller * upright) out[k] = {turn, turn.quarter_turned().quarter_turned()};
+  }
+  return out;
 }
 
 Turn best_turn(const Outline& outline, double aspect) {

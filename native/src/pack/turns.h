@@ -46,8 +46,8 @@ Turn best_turn(const Outline& outline, double aspect);
 /// quarter turns among them: of small_box_turns() at most `count` classes.
 std::vector<Turn> turns_to_try(const Outline& outline, int count);
 
-/// Aslant, in a smaller box of the aspect than at any of turns_to_try(): for an outline longer than a box of that aspect and
-/// `area` has sides. Nothing for others, or where the aspect is 0.
-std::vector<Turn> turns_aslant(const Outline& outline, double aspect, double area);
+/// For each outline that is longer than a box of that aspect and `area` has sides: turns in which it lies on the diagonal, where
+/// a smaller box of the aspect holds it so. Nothing for others, where the aspect is 0, and where more than a few are so long.
+std::vector<std::vector<Turn>> turns_aslant(const std::vector<Outline>& outlines, double aspect, double area);
 
 }  // namespace atlas_refine
