@@ -240,6 +240,18 @@ TEST(Needed, CutsAlongEdgesAreToldByTheWayThatTheyRun) {
   }
 }
 
+TEST(Needed, LimitsAreKeptByWhatIsStored) {
+  // Cuts at a slant leave polygons that are read otherwise than the triangles that were squeezed.
+  Atlas atlas = bent_into_arc(sheet(24, 3), 5);
+  for (Vec3& p : atlas.positions) p.x() += 2 * p.y();
+  for (const double most : {1.06, 1.05, 1.04, 1.03, 1.02}) {
+    RefineOptions options = needed_within(most);
+    options.box_aspect = 1;
+    options.effort = Effort::Normal;
+    EXPECT_LE(refine_soundly(atlas, options).after.distortion, most);
+  }
+}
+
 TEST(Needed, WhatCannotBeHadTogetherIsNamed) {
   const Atlas atlas = flat_star();
   RefineOptions options = needed_within(1.0001);

@@ -82,5 +82,21 @@ TEST(Compaction, ChartsThatAreTooNearAreDrawnApart) {
   }
 }
 
+TEST(Compaction, ChartsOfManyVerticesAreDrawnApartAsWell) {
+  const auto disk = testing::outline_of(shapes::disk(0.5, 500));
+  const std::vector<Outline> outlines(36, disk);
+  std::vector<Placement> start;
+  for (int k = 0; k < 36; ++k) start.push_back({1, 0, {1.02 * (k % 6), 1.02 * (k / 6)}});
+  const auto result = compact(outlines, start, {0.03, 0, 0.06, [] {}});
+  ASSERT_EQ(result.size(), outlines.size());
+  EXPECT_GE(testing::smallest_distance(outlines, result), 0.03);
+  EXPECT_LT(placed_box(outlines, result).area(), 1.03 * std::pow(1 + 5 * 1.03, 2));
+}
+
+TEST(Compaction, WhatDoesNotComeApartIsNothing) {
+  const auto square = testing::outline_of(shapes::rectangle(1, 1));
+  EXPECT_TRUE(compact({square, square}, {{1, 0, {0, 0}}, {1, 0, {0.3, 0.2}}}, options_for(0.01)).empty());
+}
+
 }  // namespace
 }  // namespace atlas_refine

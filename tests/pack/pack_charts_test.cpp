@@ -167,11 +167,18 @@ TEST(PackCharts, ALayoutGetsALargerGapWithoutAnotherSearch) {
     const Charts charts = random_charts(12, 40);
     const PackOptions options{.gap = 0.01, .box_aspect = aspect}, wider{.gap = 0.015, .box_aspect = aspect};
     const Packing packing = pack(charts, options);
-    const auto apart = with_larger_gap(charts.outlines, charts.areas, packing, wider);
+    const auto apart = with_larger_gap(charts.outlines, charts.areas, packing, options.gap, wider);
     ASSERT_TRUE(apart);
     expect_sound(charts, wider, *apart);
     EXPECT_GT(apart->pe, 0.95 * packing.pe);
   }
+}
+
+TEST(PackCharts, ManyChartsArePackedAnewForALargerGap) {
+  Charts charts;
+  for (int k = 0; k <= kManyCharts; ++k) charts.add(shapes::rectangle(1, 1));
+  const PackOptions options{.gap = 0.01};
+  EXPECT_FALSE(with_larger_gap(charts.outlines, charts.areas, pack(charts, options), options.gap, {.gap = 0.011}));
 }
 
 TEST(PackCharts, SameBitsForEveryNumberOfThreads) {

@@ -10,6 +10,7 @@
 #include "input/price_sides.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
+#include "needed/measure_trial.h"
 #include "needed/symmetric_cuts.h"
 #include "place_and_squeeze.h"
 #include "placing.h"
@@ -77,15 +78,6 @@ double CutTrials::growth_of(const std::vector<ChartCuts>& charts) const {
   return boundary_ > 0 ? 2 * length / boundary_ : 0;
 }
 
-void CutTrials::measure(const Solution& solution, Trial& trial) const {
-  const std::vector<Chart> charts = meshes_of(solution.atlas);
-  trial.distortion = trial.stretch = std::numeric_limits<double>::infinity();
-  if (!holds_bound(run_, {.charts = charts, .frame = solution.atlas.frame})) return;
-  const DirichletSums sums = dirichlet_sums(charts);
-  trial.distortion = sums.best_energy();
-  trial.stretch = stretch_99(charts, sums.best_scale());
-}
-
 SqueezedTrial CutTrials::without_cuts(const ProgressRange& range, int again) {
   Journal& journal = run_.journal;
   const Journal::Mark before = journal.mark();
@@ -95,7 +87,7 @@ SqueezedTrial CutTrials::without_cuts(const ProgressRange& range, int again) {
   SqueezedTrial out{.trial = {}, .solution = place_and_squeeze(run, whole_.atlas, whole_.keeps_place, range)};
   keep_words(before, out);
   journal.back_to({again ? before.repairs : journal.mark().repairs, before.fallbacks, before.warnings});
-  measure(out.solution, out.trial);
+  measure(run_, out.solution, out.trial);
   const std::vector<Chart> charts = meshes_of(out.solution.atlas);
   const Objective objective = goal_of(run_.input.set.charts, out.solution.atlas, run_.options);
   const double energy = reduce_distortion({.charts = charts, .objective = &objective, .max_iterations = 0}).energy;
@@ -182,7 +174,7 @@ std::optional<SqueezedTrial> CutTrials::squeezed(const Trial& trial, const Progr
   if (solution) {
     out = SqueezedTrial{.trial = trial, .solution = std::move(*solution)};
     out->trial.forecast.reset();
-    measure(out->solution, out->trial);
+    measure(run_, out->solution, out->trial);
     out->trial.losses = losses(*atlas, out->solution);
     keep_words(before, *out);
     if (trial.in_place_of) out->warnings = trial.in_place_of->warnings;
@@ -200,7 +192,7 @@ std::optional<SqueezedTrial> CutTrials::rectangles(const ProgressRange& range) c
     out = SqueezedTrial{.trial = {}, .solution = std::move(*attempt.solution)};
     if (out->solution.rectangles) out->trial.trails = out->solution.rectangles->trails;
     out->trial.growth = boundary_on_surface(meshes_of(out->solution.atlas)) / boundary_ - 1;
-    measure(out->solution, out->trial);
+    measure(run_, out->solution, out->trial);
     out->trial.foreseen = out->trial.distortion;
     keep_words(before, *out);
     out->fallbacks.push_back("cut into rectangles: no fewer seams were found that keep distortion within the limit");

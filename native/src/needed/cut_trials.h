@@ -133,7 +133,6 @@ class CutTrials {
   std::vector<std::vector<Loss>> losses(const CutAtlas& atlas, const Forecast& forecast) const;
   void keep_words(const Journal::Mark& since, SqueezedTrial& out) const;
   Vec2 place_before(const Piece& piece, int vertex) const;
-  void measure(const Solution& solution, Trial& trial) const;
 
   const Refinement& run_;
   Freedoms freedom_;

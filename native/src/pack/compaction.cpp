@@ -201,8 +201,9 @@ class Program {
       return a != b ? a < b : p.distance != q.distance ? p.distance < q.distance : p.edge < q.edge;
     });
     // A farther edge in much the same direction is left to the next, shorter
-    // step; but to none after the last ones.
+    // step. Where steps only shift these are the last, and a few are taken.
     const double alike = turning_ ? 0.9 : 1 - 1e-9;
+    constexpr std::size_t kMostOfOneChart = 3;
     std::vector<Vec2> normals;
     int faced = -1;
     for (const Contact& contact : near) {
@@ -210,6 +211,7 @@ class Program {
       if (chart != faced) normals.clear();
       faced = chart;
       const Vec2 normal = (edge.a - contact.foot) / contact.distance;
+      if (normals.size() == kMostOfOneChart) continue;
       if (std::any_of(normals.begin(), normals.end(), [&](const Vec2& n) { return n.dot(normal) > alike; })) continue;
       normals.push_back(normal);
       auto& row = inequalities_.emplace_back();
@@ -222,7 +224,10 @@ class Program {
   void add_contacts() {
     const double reach = gap_ + 4 * step_;
     std::vector<Contact> near;
+    int chart = -1;
     for (const Edge& edge : scene_.edges) {
+      if (edge.chart != chart) options_.poll();
+      chart = edge.chart;
       near.clear();
       tree_.visit_within({edge.a, edge.a}, reach, edge.chart, [&](int other) {
         const Vec2 foot = nearest_point(edge.a, scene_.edges[other]);
@@ -321,6 +326,7 @@ class Compaction {
       const bool turning = iteration < kIterations - 2 && step > 1e-4 * diagonal_;
       auto trial = after(step, turning);
       if (!trial) {
+        if (iteration == 0 && best_.empty()) return;  // shorter steps draw them less far apart
         step /= 4;
         continue;
       }
@@ -333,9 +339,12 @@ class Compaction {
   /// Where that left charts a little too near each other: short steps, of which only shifts are exact.
   void settle() {
     constexpr int kIterations = 8;
-    constexpr double kInTurn = 8;  // charts that push each other
+    constexpr double kInTurn = 8;                  // charts that push each other
+    constexpr double kLittle = 0.1, kShort = 0.3;  // of the gap
     for (int iteration = 0; iteration < kIterations && now_.reached < options_.gap && now_.cost < best_cost_; ++iteration) {
-      auto trial = after(std::max(2e-5 * diagonal_, kInTurn * (gap_ - now_.reached)), false);
+      const double missing = gap_ - now_.reached;
+      if (missing > kLittle * gap_) return;
+      auto trial = after(std::max(2e-5 * diagonal_, std::min(kInTurn * missing, kShort * gap_)), false);
       if (!trial) return;
       now_ = std::move(*trial);
       keep();

@@ -63,7 +63,7 @@ struct Grid {
 /// Of so many charts.
 GridChart on_grid(const Outline& outline, int charts, const std::vector<Turn>& aslant, const PackOptions& options, double cell) {
   std::vector<Turn> turns = turns_to_try(outline, charts > kManyCharts ? 1 : 2);
-  GridChart out{.rasters = {}, .aslant = turns.size()};
+  GridChart out;
   turns.insert(turns.end(), aslant.begin(), aslant.end());
   for (const Turn& turn : turns) out.rasters.push_back(rasterise(outline, turn, 0.5 * options.gap, cell));
   return out;
@@ -95,9 +95,10 @@ Grid make_grid(const std::vector<Outline>& outlines, double area, const PackOpti
       grid.charts[i] = on_grid(outlines[i], n, aslant[i], options, grid.cell);
     }
   });
-  for (const GridChart& chart : grid.charts) {
-    for (std::size_t k = chart.aslant; k < chart.rasters.size(); ++k)
-      grid.widest_aslant = std::max(grid.widest_aslant, chart.rasters[k].width);
+  for (int i = 0; i < n; ++i) {
+    const std::vector<Raster>& rasters = grid.charts[i].rasters;
+    for (std::size_t k = rasters.size() - aslant[i].size(); k < rasters.size(); ++k)
+      grid.widest_aslant = std::max(grid.widest_aslant, rasters[k].width);
   }
   return grid;
 }
@@ -188,6 +189,11 @@ int affordable_starts(std::int64_t work, int starts) {
   return static_cast<int>(std::clamp<std::int64_t>(affordable, std::min(kFinalists, starts), starts));
 }
 
+/// Infinite where there are no placements.
+double area_of_box(const std::vector<Outline>& outlines, const std::vector<Placement>& placements, double aspect) {
+  return placements.empty() ? INFINITY : box_of_aspect(placed_box(outlines, placements), aspect).area();
+}
+
 /// The search's state: the layouts so far, and the best placements of those
 /// that were compacted.
 class Search {
@@ -222,7 +228,7 @@ class Search {
     return box_area(layout.width * grid_.cell, layout.height * grid_.cell, options_.box_aspect);
   }
 
-  /// Smallest box first; keeps the best placements up to date.
+  /// Keeps the best placements up to date.
   void rank() {
     std::stable_sort(layouts_.begin(), layouts_.end(),
                      [&](const GridLayout& a, const GridLayout& b) { return area_of(a) < area_of(b); });
@@ -230,7 +236,7 @@ class Search {
   }
 
   void offer(std::vector<Placement> placements) {
-    const double area = box_of_aspect(placed_box(outlines_, placements), options_.box_aspect).area();
+    const double area = area_of_box(outlines_, placements, options_.box_aspect);
     if (area >= least_area_) return;
     least_area_ = area;
     best_ = std::move(placements);

@@ -15,7 +15,6 @@ namespace atlas_refine {
 /// One chart in all the turns that are tried.
 struct GridChart {
   std::vector<Raster> rasters;
-  std::size_t aslant = 0;  ///< from that one on
 };
 
 /// Where each chart lies: which of its rasters, and the cell of its min corner.

@@ -73,12 +73,14 @@ Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<doub
 }
 
 std::optional<Packing> with_larger_gap(const std::vector<Outline>& outlines, const std::vector<double>& areas,
-                                       const Packing& packing, const PackOptions& options) {
+                                       const Packing& packing, double before, const PackOptions& options) {
   constexpr double kFirstStep = 0.01;  // sides of a square that holds the charts
   if (packing.canonical.empty() || outlines.size() > kManyCharts) return std::nullopt;
   const double area = sum_of(areas);
   const CanonicalOutlines canonical = canonical_outlines(outlines, std::sqrt(area));
-  const CompactionOptions compaction{gap_between(canonical, options), options.box_aspect, kFirstStep, [&] {
+  // Those outermost move by what all in a row move apart.
+  const double wider = std::sqrt(outlines.size()) * (options.gap - before) / canonical.unit;
+  const CompactionOptions compaction{gap_between(canonical, options), options.box_aspect, std::max(kFirstStep, wider), [&] {
                                        if (options.tick) options.tick(1);
                                      }};
   std::vector<Placement> placements = compact(canonical.outlines, packing.canonical, compaction);

@@ -67,9 +67,9 @@ struct Packing {
 /// Near-linear in charts.
 Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<double>& areas, const PackOptions& options);
 
-/// The same layout with the gap of `options`, which is a little larger. Nothing where charts do not come that far apart, or are
-/// so many that packing them anew takes less.
+/// A layout that has the gap `before` with that of `options`, which is a little larger. Nothing where charts do not come that far
+/// apart, or are so many that packing them anew takes less.
 std::optional<Packing> with_larger_gap(const std::vector<Outline>& outlines, const std::vector<double>& areas,
-                                       const Packing& packing, const PackOptions& options);
+                                       const Packing& packing, double before, const PackOptions& options);
 
 }  // namespace atlas_refine

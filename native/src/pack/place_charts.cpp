@@ -145,9 +145,13 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
   for (int round = 0; charts.size() > 1 && pack.gap < kMoreThanGap * wanted(); ++round) {
     const auto next = next_gap(room, pack.gap, packing, wanted());
     if (round == kRounds || !next) refuse_gap(options.gap, charts.size());
+    const double before = pack.gap;
     pack.gap = (kFirstMore + 0.01 * round) * *next;
-    const auto apart = options.search == PackSearch::Thorough ? with_larger_gap(outlines, areas, packing, pack) : std::nullopt;
-    packing = apart ? *apart : pack_charts(outlines, areas, pack);
+    const auto apart =
+        options.search == PackSearch::Thorough ? with_larger_gap(outlines, areas, packing, before, pack) : std::nullopt;
+    // A target that was reached is reached again.
+    const bool will_do = apart && (apart->pe >= options.target_pe || packing.pe < options.target_pe);
+    packing = will_do ? *apart : pack_charts(outlines, areas, pack);
   }
   for (std::size_t c = 0; c < placed.size(); ++c) {
     for (Vec2& uv : placed[c].uvs) uv = packing.placements[c].apply(uv);
