@@ -122,6 +122,16 @@ double smallest_gap(const Scene& scene, const BoxTree& tree) {
   return any_chart_inside_another(scene) ? 0 : nearest;
 }
 
+/// A farther edge in much the same direction is left to the next, shorter step. Where steps only shift these are the last, and a
+/// few are taken.
+bool is_new(const Vec2& normal, const std::vector<Vec2>& normals, bool turning) {
+  constexpr double kAlike = 0.9, kEqual = 1 - 1e-9;
+  constexpr std::size_t kFew = 3;
+  if (!turning && normals.size() >= kFew) return false;
+  const double most = turning ? kAlike : kEqual;
+  return std::none_of(normals.begin(), normals.end(), [&](const Vec2& n) { return n.dot(normal) > most; });
+}
+
 /// Variables: for each chart dx, dy and its turn times its radius; then the
 /// growth of width and height (or of width alone).
 class Program {
@@ -200,10 +210,6 @@ class Program {
       const int a = scene_.edges[p.edge].chart, b = scene_.edges[q.edge].chart;
       return a != b ? a < b : p.distance != q.distance ? p.distance < q.distance : p.edge < q.edge;
     });
-    // A farther edge in much the same direction is left to the next, shorter
-    // step. Where steps only shift these are the last, and a few are taken.
-    const double alike = turning_ ? 0.9 : 1 - 1e-9;
-    constexpr std::size_t kMostOfOneChart = 3;
     std::vector<Vec2> normals;
     int faced = -1;
     for (const Contact& contact : near) {
@@ -211,8 +217,7 @@ class Program {
       if (chart != faced) normals.clear();
       faced = chart;
       const Vec2 normal = (edge.a - contact.foot) / contact.distance;
-      if (normals.size() == kMostOfOneChart) continue;
-      if (std::any_of(normals.begin(), normals.end(), [&](const Vec2& n) { return n.dot(normal) > alike; })) continue;
+      if (!is_new(normal, normals, turning_)) continue;
       normals.push_back(normal);
       auto& row = inequalities_.emplace_back();
       add_motion(row, edge.chart, edge.a, normal);
