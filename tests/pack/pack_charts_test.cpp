@@ -164,8 +164,8 @@ TEST(PackCharts, MuchSmallerThanTheGap) {
 
 TEST(PackCharts, ALayoutGetsALargerGapWithoutAnotherSearch) {
   for (const double aspect : {0.0, 1.0}) {
-    const Charts charts = random_charts(12, 40);
-    const PackOptions options{.gap = 0.01, .box_aspect = aspect}, wider{.gap = 0.015, .box_aspect = aspect};
+    const Charts charts = random_charts(40, 40);
+    const PackOptions options{.gap = 0.01, .box_aspect = aspect}, wider{.gap = 0.012, .box_aspect = aspect};
     const Packing packing = pack(charts, options);
     const auto apart = with_larger_gap(charts.outlines, charts.areas, packing, options.gap, wider);
     ASSERT_TRUE(apart);
@@ -174,11 +174,13 @@ TEST(PackCharts, ALayoutGetsALargerGapWithoutAnotherSearch) {
   }
 }
 
-TEST(PackCharts, ManyChartsArePackedAnewForALargerGap) {
-  Charts charts;
-  for (int k = 0; k <= kManyCharts; ++k) charts.add(shapes::rectangle(1, 1));
-  const PackOptions options{.gap = 0.01};
-  EXPECT_FALSE(with_larger_gap(charts.outlines, charts.areas, pack(charts, options), options.gap, {.gap = 0.011}));
+TEST(PackCharts, FewChartsAndManyArePackedAnewForALargerGap) {
+  for (const int count : {1, 8, kManyCharts + 1}) {
+    Charts charts;
+    for (int k = 0; k < count; ++k) charts.add(shapes::rectangle(1, 1));
+    const PackOptions options{.gap = 0.01};
+    EXPECT_FALSE(with_larger_gap(charts.outlines, charts.areas, pack(charts, options), options.gap, {.gap = 0.011}));
+  }
 }
 
 TEST(PackCharts, SameBitsForEveryNumberOfThreads) {

@@ -75,7 +75,8 @@ Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<doub
 std::optional<Packing> with_larger_gap(const std::vector<Outline>& outlines, const std::vector<double>& areas,
                                        const Packing& packing, double before, const PackOptions& options) {
   constexpr double kFirstStep = 0.01;  // sides of a square that holds the charts
-  if (packing.canonical.empty() || outlines.size() > kManyCharts) return std::nullopt;
+  constexpr std::size_t kFew = 32;     // charts: another search takes as little, and may find a better layout
+  if (outlines.size() <= kFew || outlines.size() > kManyCharts) return std::nullopt;
   const double area = sum_of(areas);
   const CanonicalOutlines canonical = canonical_outlines(outlines, std::sqrt(area));
   // Those outermost move by what all in a row move apart.

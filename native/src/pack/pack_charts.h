@@ -68,7 +68,7 @@ struct Packing {
 Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<double>& areas, const PackOptions& options);
 
 /// A layout that has the gap `before` with that of `options`, which is a little larger. Nothing where charts do not come that far
-/// apart, or are so many that packing them anew takes less.
+/// apart, or are so few or so many that packing them anew is as well.
 std::optional<Packing> with_larger_gap(const std::vector<Outline>& outlines, const std::vector<double>& areas,
                                        const Packing& packing, double before, const PackOptions& options);
 
