@@ -9,7 +9,9 @@
 
 #include "atlas_refine/measures.h"
 #include "input/split_charts.h"
+#include "shapes.h"
 #include "sheets.h"
+#include "support/thread_pool.h"
 
 namespace atlas_refine {
 namespace {
@@ -120,8 +122,8 @@ TEST(AsMeant, AFinDoesNotTearTheSheetItStandsOn) {
   EXPECT_EQ(chart_sizes(split_charts(atlas)), (Sizes{{2, 1}, {24, 1}}));
 }
 
-TEST(AsMeant, BoxesThatMeetAtAnEdgeInSpaceAndInTheUVsAreWholeEach) {
-  // Three sides of a box around its corner, and the same box turned by half around one of its edges.
+/// Three sides of a box around its corner, and the same box turned by half around one of its edges.
+Atlas boxes_at_an_edge() {
   Atlas atlas = flat_atlas({{0, 0, 0}, {0, 0, 1}}, {});
   for (const double sign : {1.0, -1.0}) {
     const int v = static_cast<int>(atlas.positions.size());
@@ -131,8 +133,25 @@ TEST(AsMeant, BoxesThatMeetAtAnEdgeInSpaceAndInTheUVsAreWholeEach) {
     add_face(atlas, {0, 1, v + 2, v + 3}, {{1, 0}, {1, 1}, {0, 1}, {0, 0}});
     add_face(atlas, {0, v + 3, v + 4, v}, {{1, 0}, {0, 0}, {0, -1}, {1, -1}});
   }
+  return atlas;
+}
+
+TEST(AsMeant, BoxesThatMeetAtAnEdgeInSpaceAndInTheUVsAreWholeEach) {
+  const Atlas atlas = boxes_at_an_edge();
   EXPECT_EQ(chart_sizes(split_charts(atlas)), (Sizes{{3, 2}}));
   EXPECT_EQ(chart_sizes(split_charts(unwelded(atlas))), (Sizes{{3, 2}}));
+}
+
+TEST(AsMeant, EdgesArePairedAlikeOnAnyNumberOfThreads) {
+  const Atlas atlas = shapes::combine(std::vector<Atlas>(2000, boxes_at_an_edge()));
+  const EdgeJoins alone = join_edges(atlas, Joining::AsMeant);
+  EXPECT_EQ(std::count(alone.partners.begin(), alone.partners.end(), -1), 2000 * 2 * 8);
+  for (const int threads : {2, 5}) {
+    const ThreadPoolScope pool(threads);
+    const EdgeJoins joins = join_edges(atlas, Joining::AsMeant, {}, threads);
+    EXPECT_EQ(joins.partners, alone.partners);
+    EXPECT_EQ(joins.alike, alone.alike);
+  }
 }
 
 TEST(AsMeant, PagesOfABookAreChartsOfTheirOwn) {

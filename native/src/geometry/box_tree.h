@@ -18,6 +18,11 @@ inline bool overlap(const Box& a, const Box& b) {
 /// The smallest box that holds both.
 inline Box united(const Box& a, const Box& b) { return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)}; }
 
+inline Box box_of(const Chart& chart, const Triangle& t) {
+  const Vec2 &a = chart.uvs[t[0]], &b = chart.uvs[t[1]], &c = chart.uvs[t[2]];
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
 /// Distance between two boxes, 0 where they overlap.
 inline double box_distance(const Box& a, const Box& b) {
   const double dx = std::max({0.0, b.min.x() - a.max.x(), a.min.x() - b.max.x()});

@@ -7,7 +7,6 @@
 #include "input/pair_uses.h"
 #include "input/places.h"
 #include "input/uv_noise.h"
-#include "support/disjoint_sets.h"
 #include "support/gathered.h"
 #include "support/parallel.h"
 
@@ -119,15 +118,7 @@ DisjointSets shells_of(const Atlas& atlas, EdgeUses uses, const std::vector<int>
   return out;
 }
 
-DisjointSets charts_of(const Atlas& atlas, const EdgeJoins& joins) {
-  DisjointSets out(atlas.face_count());
-  for (std::size_t c = 0; c < joins.partners.size(); ++c) {
-    if (joins.partners[c] >= 0) out.unite(joins.corner_faces[c], joins.corner_faces[joins.partners[c]]);
-  }
-  return out;
-}
-
-/// The ambiguous uses last, within one chart, or else within one shell.
+/// Side by side on the pool's threads; ambiguous uses last, within one chart, or else within one shell.
 void join_pairs(const Atlas& atlas, Joining joining, EdgeUses uses, const std::vector<int>& groups, EdgeJoins& joins) {
   constexpr int kGrain = 8192;  // uses: fewer are not worth a thread
   const double tolerance = joining == Joining::Exact ? 0 : uv_noise(atlas);
@@ -144,12 +135,20 @@ void join_pairs(const Atlas& atlas, Joining joining, EdgeUses uses, const std::v
   });
   if (ambiguous.empty()) return;
   UsePairs pairs(atlas, tolerance, joins, ambiguous);
-  DisjointSets charts = charts_of(atlas, joins), shells = shells_of(atlas, uses, groups, joins);
+  DisjointSets charts = joined_faces(atlas, joins), shells = shells_of(atlas, uses, groups, joins);
   pairs.join_within(charts);
   pairs.join_within(shells);
 }
 
 }  // namespace
+
+DisjointSets joined_faces(const Atlas& atlas, const EdgeJoins& joins) {
+  DisjointSets out(atlas.face_count());
+  for (int c = 0; c < atlas.corner_count(); ++c) {
+    if (joins.partners[c] > c) out.unite(joins.corner_faces[c], joins.corner_faces[joins.partners[c]]);
+  }
+  return out;
+}
 
 void orient_faces(const Atlas& atlas, EdgeJoins& joins) {
   joins.turned_faces.assign(atlas.face_count(), false);

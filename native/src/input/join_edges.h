@@ -5,6 +5,7 @@
 
 #include "atlas_refine/atlas.h"
 #include "input/edge_uses.h"
+#include "support/disjoint_sets.h"
 
 namespace atlas_refine {
 
@@ -45,6 +46,9 @@ struct EdgeJoins {
 /// one side are never joined. What is ambiguous then is joined within one chart only. Edges whose join would make a chart
 /// one-sided (Moebius) stay seams, so that charts are orientable, and manifold once corners are united across joins only.
 EdgeJoins join_edges(const Atlas& atlas, Joining joining, const std::vector<int>& groups = {}, int threads = 1);
+
+/// Faces that joins hold together.
+DisjointSets joined_faces(const Atlas& atlas, const EdgeJoins& joins);
 
 /// Winds the faces of each chart alike, and undoes joins that would make it one-sided, folds and faces without area first.
 void orient_faces(const Atlas& atlas, EdgeJoins& joins);

@@ -30,10 +30,7 @@ struct FaceCharts {
 };
 
 FaceCharts number_charts(const Atlas& atlas, const EdgeJoins& joins) {
-  DisjointSets joined(atlas.face_count());
-  for (int c = 0; c < atlas.corner_count(); ++c) {
-    if (joins.partners[c] > c) joined.unite(joins.corner_faces[c], joins.corner_faces[joins.partners[c]]);
-  }
+  DisjointSets joined = joined_faces(atlas, joins);
   FaceCharts charts;
   charts.chart.reserve(atlas.face_count());
   for (int f = 0; f < atlas.face_count(); ++f) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/box_tree.h"
 #include "geometry/freedom.h"
 #include "geometry/plane.h"
 #include "measure/distortion.h"
@@ -25,11 +26,7 @@ std::vector<int> leaders_first(const ChartSet& set, std::vector<int> charts, con
   return charts;
 }
 
-/// The longer side of the triangle's box.
-double extent_of(const Chart& chart, const Triangle& t) {
-  const Vec2 &a = chart.uvs[t[0]], &b = chart.uvs[t[1]], &c = chart.uvs[t[2]];
-  return (a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c)).maxCoeff();
-}
+double extent_of(const Chart& chart, const Triangle& t) { return box_of(chart, t).size().maxCoeff(); }
 
 /// Whether the triangles up to that extent lie on a point or a line.
 bool is_point_or_line(const Chart& chart, double longest, double box_side) {
@@ -37,7 +34,7 @@ bool is_point_or_line(const Chart& chart, double longest, double box_side) {
   double area = 0;
   for (const Triangle& t : chart.triangles) {
     if (extent_of(chart, t) > longest) continue;
-    for (const int v : t) box = {box.min.cwiseMin(chart.uvs[v]), box.max.cwiseMax(chart.uvs[v])};
+    box = united(box, box_of(chart, t));
     area += 0.5 * std::abs(doubled_area(chart.uvs[t[0]], chart.uvs[t[1]], chart.uvs[t[2]]));
   }
   const double length = box.size().maxCoeff();

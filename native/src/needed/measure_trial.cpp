@@ -1,4 +1,4 @@
-// Measured on the pieces, and once more as stored where a limit depends on it.
+// Measured on the pieces, or as stored where these are read otherwise.
 #include "needed/measure_trial.h"
 
 #include <limits>
@@ -12,14 +12,13 @@
 namespace atlas_refine {
 namespace {
 
-/// A limit is asked, and kept.
-bool seems_enough(const RefineOptions& asked, const Trial& trial) {
-  const bool any = asked.max_distortion || asked.max_stretch;
-  return any && trial.distortion <= asked.max_distortion.value_or(trial.distortion) &&
-         trial.stretch <= asked.max_stretch.value_or(trial.stretch);
+/// Of triangles all parts are images of one map, however they are divided.
+bool divides_polygons(const Refinement& run, const CutAtlas& atlas) {
+  const Atlas& input = run.input.atlas;
+  return !atlas.seams.empty() && divides_faces(run.options) && input.corner_count() > 3 * input.face_count();
 }
 
-/// Parts of divided faces are polygons, which are read otherwise than their triangles lie in the solution.
+/// Parts of divided polygons are polygons, which are read otherwise than their triangles lie in the solution.
 void measure_as_stored(const Refinement& run, const Solution& solution, Trial& trial) {
   const Gap none{.value = 0};  // that it is kept is tested in the end
   try {
@@ -41,8 +40,7 @@ void measure(const Refinement& run, const Solution& solution, Trial& trial) {
   const DirichletSums sums = dirichlet_sums(charts);
   trial.distortion = sums.best_energy();
   trial.stretch = stretch_99(charts, sums.best_scale());
-  if (!solution.atlas.seams.empty() && divides_faces(run.options) && seems_enough(run.asked, trial))
-    measure_as_stored(run, solution, trial);
+  if (divides_polygons(run, solution.atlas)) measure_as_stored(run, solution, trial);
 }
 
 }  // namespace atlas_refine

@@ -5,7 +5,7 @@
 
 namespace atlas_refine {
 
-/// Infinite where the bound does not hold. What seems to keep the limits that are asked is measured as it will be stored.
+/// As it will be stored; infinite where the bound does not hold.
 void measure(const Refinement& run, const Solution& solution, Trial& trial);
 
 }  // namespace atlas_refine

@@ -341,7 +341,7 @@ class Compaction {
     }
   }
 
-  /// Where that left charts a little too near each other: short steps, of which only shifts are exact.
+  /// Charts that this left a little too near each other, by short shifts.
   void settle() {
     constexpr int kIterations = 8;
     constexpr double kInTurn = 8;                  // charts that push each other

@@ -60,7 +60,7 @@ struct Grid {
   int widest_aslant = 0;  ///< of the charts that are longer than the box' sides should be
 };
 
-/// Of so many charts.
+/// In all turns that are tried where there are so many charts, those aslant last.
 GridChart on_grid(const Outline& outline, int charts, const std::vector<Turn>& aslant, const PackOptions& options, double cell) {
   std::vector<Turn> turns = turns_to_try(outline, charts > kManyCharts ? 1 : 2);
   GridChart out;
@@ -228,7 +228,7 @@ class Search {
     return box_area(layout.width * grid_.cell, layout.height * grid_.cell, options_.box_aspect);
   }
 
-  /// Keeps the best placements up to date.
+  /// Smallest box first; keeps the best placements up to date.
   void rank() {
     std::stable_sort(layouts_.begin(), layouts_.end(),
                      [&](const GridLayout& a, const GridLayout& b) { return area_of(a) < area_of(b); });

@@ -149,7 +149,7 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
     pack.gap = (kFirstMore + 0.01 * round) * *next;
     const auto apart =
         options.search == PackSearch::Thorough ? with_larger_gap(outlines, areas, packing, before, pack) : std::nullopt;
-    // A target that was reached is reached again.
+    // Where the target was reached, another search is likely to reach it, too.
     const bool will_do = apart && (apart->pe >= options.target_pe || packing.pe < options.target_pe);
     packing = will_do ? *apart : pack_charts(outlines, areas, pack);
   }

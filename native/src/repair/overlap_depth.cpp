@@ -20,11 +20,6 @@ struct FarTriangle {
   int ring;  ///< the least of its corners'
 };
 
-Box box_of(const Chart& chart, const Triangle& t) {
-  const Vec2 &a = chart.uvs[t[0]], &b = chart.uvs[t[1]], &c = chart.uvs[t[2]];
-  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-}
-
 /// Those without a corner at a bad one, row by row from left to right, as the tree wants its items.
 std::vector<FarTriangle> far_triangles(const Chart& chart, const std::vector<int>& ring) {
   std::vector<FarTriangle> out;
