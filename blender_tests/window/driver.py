@@ -146,6 +146,9 @@ def enter_edit_mode():
 def start(obj, pe_bound=0.8):
     bpy.context.view_layer.objects.active = obj
     bpy.context.scene.atlas_refine.pe_bound = pe_bound
+    # Off the button, as for setting it by hand: Blender keeps a button that the pointer is on as it was drawn.
+    window().event_simulate("MOUSEMOVE", "NOTHING", x=300, y=200)
+    yield 0.3
     uv_editor().tag_redraw()
     yield 0.3
     yield from click(BUTTON)

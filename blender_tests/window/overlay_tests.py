@@ -157,6 +157,8 @@ def test_overlay_in_both_editors_and_pictures_of_the_manual():
     picture("manual-before")
     yield from start(obj, pe_bound=0.8)
     yield finished
+    used = tasks().last[0].result.after.unit_square_share
+    assert used >= 0.8, used
     show("stretch", "seams")
     for _ in range(12):  # the panel opens step by step, while it is drawn
         for region in uv_editor().regions:
