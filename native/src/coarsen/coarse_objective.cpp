@@ -2,16 +2,20 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
-#include <utility>
+#include <numeric>
 
 #include "coarsen/coarse_chart.h"
 #include "geometry/guards.h"
 #include "geometry/plane.h"
 #include "solve/symmetric_dirichlet.h"
-#include "support/gathered.h"
+#include "support/parallel.h"
+#include "support/thread_pool.h"
 
 namespace atlas_refine {
 namespace {
+
+constexpr int kGrain = 2048;       // elements,
+constexpr int kCoarseGrain = 128;  // coarse triangles for each part of a parallel loop
 
 /// Sums over elements. With J an element's Jacobian from its shape to the UVs, E_d under a further map F is
 /// weight (tr(F J J^T F^T) + tr(F^-T (J J^T)^-1 F^-1)) / 4.
@@ -36,25 +40,60 @@ Mat2 geometric_mean(const Mat2& a, const Mat2& b) {
   return std::sqrt(root_a * root_b / sum.determinant()) * sum;
 }
 
+/// Elements of a chart in the UVs: its triangles, then its guards.
+struct Elements {
+  explicit Elements(const Chart& chart) : chart(chart), shares(triangle_shares(chart)) {}
+
+  int size() const { return static_cast<int>(chart.triangles.size() + chart.guards.size()); }
+  bool is_guard(int e) const { return e >= static_cast<int>(chart.triangles.size()); }
+  const Guard& guard(int e) const { return chart.guards[e - chart.triangles.size()]; }
+  const Triangle& corners(int e) const { return is_guard(e) ? guard(e).triangle : chart.triangles[e]; }
+  double share(int e) const { return is_guard(e) ? guard(e).share : shares[e]; }
+
+  const Chart& chart;
+  std::vector<double> shares;
+};
+
+/// The coarse triangle that holds the middle of each element.
+std::vector<int> places_of(const Elements& elements, const CoarseChart& coarse, const Locator& locator) {
+  std::vector<int> out(elements.size());
+  parallel_ranges(elements.size(), present_threads(), kGrain, [&](int begin, int end) {
+    for (int e = begin; e < end; ++e) {
+      const Triangle& t = elements.corners(e);
+      const std::vector<Vec2>& uvs = elements.chart.uvs;
+      out[e] = locator.locate((uvs[t[0]] + uvs[t[1]] + uvs[t[2]]) / 3, coarse.places[t[0]].triangle).triangle;
+    }
+  });
+  return out;
+}
+
+Average average_of(const Elements& elements, int e, const ChartObjective& fine) {
+  const Triangle& t = elements.corners(e);
+  const std::vector<Vec2>& uvs = elements.chart.uvs;
+  const Vec2 &a = uvs[t[0]], &b = uvs[t[1]], &c = uvs[t[2]];
+  const double area = 0.5 * elements.share(e) * doubled_area(a, b, c);
+  if (!(area > 0)) return {};
+  const Mat2 j = jacobian(fine.inverse_edges[e], a, b, c);
+  const Mat2 square = j * j.transpose();
+  return {area, fine.weight[e], fine.weight[e] * square, fine.weight[e] * square.inverse()};
+}
+
+/// By coarse triangle, each sum in the order of its elements.
 std::vector<Average> averages(const Chart& chart, const CoarseChart& coarse, const Locator& locator, const ChartObjective& fine) {
-  std::vector<std::pair<Triangle, double>> elements;  // and what counts of their areas
-  for_each_element(chart, [&](const Triangle& t, const RestTriangle&, double share, int) { elements.emplace_back(t, share); });
-  constexpr int kGrain = 2048;
-  const auto parts =
-      gathered<std::pair<int, Average>>(static_cast<int>(elements.size()), kGrain, [&](int begin, int end, auto& out) {
-        for (int e = begin; e < end; ++e) {
-          const auto& [t, share] = elements[e];
-          const Vec2 &a = chart.uvs[t[0]], &b = chart.uvs[t[1]], &c = chart.uvs[t[2]];
-          const double area = 0.5 * share * doubled_area(a, b, c);
-          if (!(area > 0)) continue;
-          const Mat2 j = jacobian(fine.inverse_edges[e], a, b, c);
-          const Mat2 square = j * j.transpose();
-          out.emplace_back(locator.locate((a + b + c) / 3, coarse.places[t[0]].triangle).triangle,
-                           Average{area, fine.weight[e], fine.weight[e] * square, fine.weight[e] * square.inverse()});
-        }
-      });
-  std::vector<Average> out(coarse.mesh.triangles.size());
-  for (const auto& [triangle, part] : parts) out[triangle] += part;
+  const Elements elements(chart);
+  const std::vector<int> places = places_of(elements, coarse, locator);
+  const std::size_t count = coarse.mesh.triangles.size();
+  std::vector<int> first(count + 1, 0), held(places.size());  // entries [first[t], first[t + 1]) lie in t
+  for (const int place : places) ++first[place + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> next(first.begin(), first.end() - 1);
+  for (int e = 0; e < elements.size(); ++e) held[next[places[e]]++] = e;
+  std::vector<Average> out(count);
+  parallel_ranges(static_cast<int>(count), present_threads(), kCoarseGrain, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      for (int k = first[t]; k < first[t + 1]; ++k) out[t] += average_of(elements, held[k], fine);
+    }
+  });
   return out;
 }
 

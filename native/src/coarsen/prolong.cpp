@@ -4,8 +4,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "geometry/boundary.h"
 #include "geometry/guards.h"
@@ -23,6 +25,8 @@ namespace {
 constexpr double kBad = 2;          // times its energy before, or the median: an element that has to be mended
 constexpr int kMostSweeps = 100;    // over the vertices of bad elements
 constexpr int kOwnSweeps = 6;       // without those around them
+constexpr int kPatience = 10;       // sweeps in which, none being flipped,
+constexpr double kProgress = 0.9;   // the bad ones must have become so many: else they are as good as they get
 constexpr double kFirstBlur = 0.3;  // epsilon of the energy for flipped elements,
 constexpr double kFocus = 0.7;      // falls by this factor in every sweep,
 constexpr double kLeastBlur = 0.1;  // to this: with less, steps of single vertices get stuck between flipped ones
@@ -96,33 +100,52 @@ void relax(Patch& patch, int v, double epsilon) {
   if (!step.allFinite()) return;
   const Vec2 from = patch.x[v];
   const double before = local_energy(patch, v, epsilon);
-  const double fraction = line_search(1, before, gradient.dot(step), [&](double part) {
+  const double fraction = backtrack(1, before, gradient.dot(step), [&](double part) {
     patch.x[v] = from + part * step;
     return local_energy(patch, v, epsilon);
   });
   if (fraction == 0) patch.x[v] = from;
 }
 
-void sort_unique(std::vector<int>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
+/// Lists of numbers below a limit, ascending and each once.
+class NumberSet {
+ public:
+  explicit NumberSet(std::size_t limit) : listed_(limit, 0) {}
 
-/// The vertices of these elements.
-std::vector<int> corners(const Patch& patch, const std::vector<int>& elements) {
-  std::vector<int> out;
-  for (const int e : elements) out.insert(out.end(), patch.elements[e].begin(), patch.elements[e].end());
-  sort_unique(out);
-  return out;
-}
+  template <class Numbers>
+  void add(const Numbers& numbers) {
+    for (const int n : numbers) {
+      if (!std::exchange(listed_[n], 1)) list_.push_back(n);
+    }
+  }
 
-/// The elements around these vertices.
-std::vector<int> stars(const Patch& patch, const std::vector<int>& vertices) {
-  std::vector<int> out;
-  for (const int v : vertices) out.insert(out.end(), patch.around(v).begin(), patch.around(v).end());
-  sort_unique(out);
-  return out;
-}
+  std::vector<int> take() {
+    for (const int n : list_) listed_[n] = 0;
+    std::sort(list_.begin(), list_.end());
+    return std::exchange(list_, {});
+  }
+
+ private:
+  std::vector<char> listed_;
+  std::vector<int> list_;
+};
+
+/// The vertices of elements, and the elements around vertices.
+struct Stars {
+  explicit Stars(const Patch& patch) : patch(patch), vertices(patch.x.size()), elements(patch.elements.size()) {}
+
+  std::vector<int> corners(const std::vector<int>& of) {
+    for (const int e : of) vertices.add(patch.elements[e]);
+    return vertices.take();
+  }
+  std::vector<int> around(const std::vector<int>& of) {
+    for (const int v : of) elements.add(patch.around(v));
+    return elements.take();
+  }
+
+  const Patch& patch;
+  NumberSet vertices, elements;
+};
 
 void find_stars(Patch& patch) {
   patch.around_start.assign(patch.x.size() + 1, 0);
@@ -137,6 +160,22 @@ void find_stars(Patch& patch) {
   }
 }
 
+/// Whether sweeps go on mending: while some are flipped always.
+class Progress {
+ public:
+  bool ends(std::size_t bad, bool flipped) {
+    if (flipped || static_cast<double>(bad) < kProgress * least_) {
+      least_ = static_cast<double>(bad);
+      idle_ = 0;
+    }
+    return ++idle_ > kPatience;
+  }
+
+ private:
+  double least_ = std::numeric_limits<double>::infinity();
+  int idle_ = 0;
+};
+
 /// Of elements with more energy than `most`; true where none is left flipped.
 bool mend(const std::vector<double>& most, Patch& patch) {
   const auto is_good = [&](int e) { return patch.energy_of(e) <= most[e]; };
@@ -147,16 +186,21 @@ bool mend(const std::vector<double>& most, Patch& patch) {
   });
   if (bad.empty()) return true;
   find_stars(patch);
+  Stars stars(patch);
+  Progress progress;
+  bool flipped = true;
   double epsilon = kFirstBlur;
   for (int sweep = 0; sweep < kMostSweeps && !bad.empty(); ++sweep, epsilon = std::max(kLeastBlur, kFocus * epsilon)) {
-    const std::vector<int> moving = corners(patch, sweep < kOwnSweeps ? bad : stars(patch, corners(patch, bad)));
+    const std::vector<int> moving = stars.corners(sweep < kOwnSweeps ? bad : stars.around(stars.corners(bad)));
     for (const int v : moving) {
       if (!patch.fixed[v]) relax(patch, v, epsilon);
     }
-    bad = stars(patch, moving);  // while some are flipped, others may be on the way
+    bad = stars.around(moving);  // while some are flipped, others may be on the way
     std::erase_if(bad, is_good);
+    flipped = std::any_of(bad.begin(), bad.end(), [&](int e) { return !std::isfinite(patch.energy_of(e)); });
+    if (progress.ends(bad.size(), flipped)) break;
   }
-  return std::all_of(bad.begin(), bad.end(), [&](int e) { return std::isfinite(patch.energy_of(e)); });
+  return !flipped;
 }
 
 std::vector<double> energies(const Patch& patch) {

@@ -69,8 +69,7 @@ struct StepBounds {
 /// Armijo: the first of `limit` and smaller steps at which `merit_at` is low enough, 0 where none is: half as large where it is
 /// too high, `back_off` times as large where it is infinite, a state that is not allowed. Its last call is the accepted one.
 template <class MeritAt>
-double line_search(double limit, double merit, double slope, MeritAt&& merit_at, double back_off = 0.5) {
-  const PhaseScope scope(Phase::LineSearch);
+double backtrack(double limit, double merit, double slope, MeritAt&& merit_at, double back_off = 0.5) {
   constexpr double kDecrease = 1e-4;
   constexpr double kLeastPart = 1e-9;
   for (double fraction = limit; fraction > kLeastPart * limit;) {
@@ -79,6 +78,13 @@ double line_search(double limit, double merit, double slope, MeritAt&& merit_at,
     fraction *= std::isfinite(reached) ? 0.5 : back_off;
   }
   return 0;
+}
+
+/// The same, with an account of its time: not for single vertices.
+template <class MeritAt>
+double line_search(double limit, double merit, double slope, MeritAt&& merit_at, double back_off = 0.5) {
+  const PhaseScope scope(Phase::LineSearch);
+  return backtrack(limit, merit, slope, merit_at, back_off);
 }
 
 }  // namespace atlas_refine
