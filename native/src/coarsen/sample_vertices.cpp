@@ -71,7 +71,7 @@ struct Spacing {
 };
 
 /// At boundary vertices: the longer of their boundary edges.
-std::vector<double> spacing_at_boundary(const Chart& chart, const VertexGraph& graph) {
+std::vector<double> spacing_at_boundary(const Chart& chart, const VertexGraph& graph, double most) {
   std::vector<double> at(chart.vertex_count(), std::numeric_limits<double>::infinity());
   for (const std::vector<int>& loop : chart.boundary_loops) {
     for (std::size_t k = 0; k < loop.size(); ++k) {
@@ -80,19 +80,27 @@ std::vector<double> spacing_at_boundary(const Chart& chart, const VertexGraph& g
       graph.visit(loop[k], [&](int u, double length) {
         if (u == before || u == after) longest = std::max(longest, length);
       });
-      at[loop[k]] = longest;
+      at[loop[k]] = std::min(longest, most);
     }
   }
   return at;
 }
 
-/// Dijkstra from the boundary: a vertex keeps what its nearest boundary edges are long, more away from them.
+/// Dijkstra from the boundary: a vertex keeps what its nearest boundary edges are long, more away from them. Those that keep
+/// `most`, of large charts nearly all, follow in the order in which they are reached.
 Spacing grown_spacing(const Chart& chart, const VertexGraph& graph, double most) {
   Spacing out;
-  out.at = spacing_at_boundary(chart, graph);
+  out.at = spacing_at_boundary(chart, graph, most);
   Queue queue;
+  std::vector<int> far;
+  const auto enter = [&](int v) {
+    if (out.at[v] < most)
+      queue.emplace(out.at[v], v);
+    else
+      far.push_back(v);
+  };
   for (int v = 0; v < chart.vertex_count(); ++v) {
-    if (std::isfinite(out.at[v])) queue.emplace(out.at[v], v);
+    if (std::isfinite(out.at[v])) enter(v);
   }
   while (!queue.empty()) {
     const double value = queue.top().first;
@@ -101,11 +109,22 @@ Spacing grown_spacing(const Chart& chart, const VertexGraph& graph, double most)
     if (value > out.at[v]) continue;
     out.order.push_back(v);
     graph.visit(v, [&](int u, double length) {
-      const double grown = value + kGrowth * length;
-      if (grown < out.at[u]) queue.emplace(out.at[u] = grown, u);
+      const double grown = std::min(value + kGrowth * length, most);
+      if (grown >= out.at[u]) return;
+      out.at[u] = grown;
+      enter(u);
     });
   }
-  for (double& value : out.at) value = std::min(value, most);
+  for (std::size_t k = 0; k < far.size(); ++k) {
+    const int v = far[k];
+    if (out.at[v] < most) continue;  // reached on a shorter way later
+    out.order.push_back(v);
+    graph.visit(v, [&](int u, double) {
+      if (!(out.at[u] > most)) return;
+      out.at[u] = most;
+      far.push_back(u);
+    });
+  }
   return out;
 }
 
