@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "outlines.h"
 
 namespace atlas_refine {
@@ -91,6 +93,32 @@ TEST(Compaction, ChartsOfManyVerticesAreDrawnApartAsWell) {
   ASSERT_EQ(result.size(), outlines.size());
   EXPECT_GE(testing::smallest_distance(outlines, result), 0.03);
   EXPECT_LT(placed_box(outlines, result).area(), 1.03 * std::pow(1 + 5 * 1.03, 2));
+}
+
+TEST(Compaction, MoreVerticesOnTheSameOutlinesChangeNextToNothing) {
+  constexpr int kParts = 20;  // of each edge
+  double coarse = 0, fine = 0;
+  for (int seed = 1; seed <= 5; ++seed) {
+    std::vector<Outline> outlines, divided;
+    std::vector<Placement> start;
+    for (int k = 0; k < 9; ++k) {
+      outlines.push_back(testing::outline_of(shapes::random_star_polygon(10 * seed + k)));
+      Outline& last = divided.emplace_back(outlines.back());
+      for (auto& loop : last.loops) {
+        const auto corners = std::exchange(loop, {});
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+          const Vec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
+          for (int part = 0; part < kParts; ++part) loop.push_back(a + static_cast<double>(part) / kParts * (b - a));
+        }
+      }
+      start.push_back({1, 0, {1.03 * (k % 3), 1.03 * (k / 3)}});
+    }
+    coarse += placed_box(outlines, compact(outlines, start, options_for(0.02))).area();
+    const auto result = compact(divided, start, options_for(0.02));
+    fine += placed_box(divided, result).area();
+    EXPECT_GE(testing::smallest_distance(divided, result), 0.02);
+  }
+  EXPECT_NEAR(fine, coarse, 0.02 * coarse);
 }
 
 TEST(Compaction, WhatDoesNotComeApartIsNothing) {

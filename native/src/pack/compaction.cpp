@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <tuple>
 
 #include "geometry/boundary.h"
 #include "geometry/box_tree.h"
@@ -199,16 +200,16 @@ class Program {
 
   struct Contact {
     double distance;
-    int edge;
+    int vertex, edge;  ///< entries of the scene's edges
     Vec2 foot;
   };
 
-  /// Constraints for one vertex: its nearest edges in each direction, for each
-  /// chart that it faces.
-  void add_contacts_of(const Edge& edge, std::vector<Contact>& near) {
+  /// Constraints for vertices of one stretch: its nearest edges in each
+  /// direction, for each chart that it faces.
+  void add_contacts_of(int chart_of_stretch, std::vector<Contact>& near) {
     std::sort(near.begin(), near.end(), [&](const Contact& p, const Contact& q) {
       const int a = scene_.edges[p.edge].chart, b = scene_.edges[q.edge].chart;
-      return a != b ? a < b : p.distance != q.distance ? p.distance < q.distance : p.edge < q.edge;
+      return std::tie(a, p.distance, p.vertex, p.edge) < std::tie(b, q.distance, q.vertex, q.edge);
     });
     std::vector<Vec2> normals;
     int faced = -1;
@@ -216,31 +217,43 @@ class Program {
       const int chart = scene_.edges[contact.edge].chart;
       if (chart != faced) normals.clear();
       faced = chart;
-      const Vec2 normal = (edge.a - contact.foot) / contact.distance;
+      const Vec2& vertex = scene_.edges[contact.vertex].a;
+      const Vec2 normal = (vertex - contact.foot) / contact.distance;
       if (!is_new(normal, normals, turning_)) continue;
       normals.push_back(normal);
       auto& row = inequalities_.emplace_back();
-      add_motion(row, edge.chart, edge.a, normal);
+      add_motion(row, chart_of_stretch, vertex, normal);
       add_motion(row, chart, contact.foot, -normal);
       row.bound = gap_ - contact.distance;
     }
+    near.clear();
+  }
+
+  /// Where steps turn, vertices of a stretch that is short against the step are one: what they bar is nearly the same.
+  bool ends_stretch(int k, double& length) const {
+    constexpr double kOfStep = 0.5;
+    const Edge& edge = scene_.edges[k];
+    length += (edge.b - edge.a).norm();
+    const bool last = k + 1 == scene_.first_edges[edge.chart + 1] || scene_.edges[k + 1].a != edge.b;
+    if (turning_ && !last && length < kOfStep * step_) return false;
+    length = 0;
+    return true;
   }
 
   void add_contacts() {
     const double reach = gap_ + 4 * step_;
     std::vector<Contact> near;
-    int chart = -1;
-    for (const Edge& edge : scene_.edges) {
-      if (edge.chart != chart) options_.poll();
-      chart = edge.chart;
-      near.clear();
+    double length = 0;  // of the stretch
+    for (int k = 0; k < static_cast<int>(scene_.edges.size()); ++k) {
+      const Edge& edge = scene_.edges[k];
+      if (k == scene_.first_edges[edge.chart]) options_.poll();
       tree_.visit_within({edge.a, edge.a}, reach, edge.chart, [&](int other) {
         const Vec2 foot = nearest_point(edge.a, scene_.edges[other]);
         const double distance = (edge.a - foot).norm();
-        if (distance > 0 && distance <= reach) near.push_back({distance, other, foot});
+        if (distance > 0 && distance <= reach) near.push_back({distance, k, other, foot});
         return true;
       });
-      add_contacts_of(edge, near);
+      if (ends_stretch(k, length)) add_contacts_of(edge.chart, near);
     }
   }
 

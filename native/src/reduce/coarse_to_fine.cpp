@@ -12,7 +12,7 @@ namespace {
 
 // What slides slowly slides on the coarse charts, where that costs little: fine ones would stop short of it.
 constexpr double kLeastChange = 2e-5;
-constexpr double kNegligible = 1e-9;
+constexpr double kNegligible = 2e-7;
 
 /// The fine charts from where the coarse ones have ended.
 std::optional<PlacedCharts> carried_over(const CoarseAtlas& coarse, std::vector<Chart> charts, const Objective& objective,
@@ -145,6 +145,7 @@ ReduceResult squeeze_on(const PlacedCharts& start, const Objective& objective, c
                         const SqueezeOptions& options, Monitor& monitor) {
   ReduceProblem problem = problem_at(start, objective, gap, options);
   problem.warm = warm;
+  problem.negligible = options.negligible;
   return reduce_distortion(problem, [&](const ReduceProgress& progress) {
     monitor.report(0.97, progress.pe);
     return !monitor.finishing();

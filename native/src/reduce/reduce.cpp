@@ -21,12 +21,14 @@ constexpr int kStallIterations = 12;
 constexpr double kBackOff = 0.8;      // in a box: the floor of a gap is mostly overstepped by little
 constexpr double kFarBelow = 3;       // log PE below the target where charts that climb too slowly are given up,
 constexpr int kTrialIterations = 60;  // after so many iterations
+constexpr double kOnTarget = 1e-4;    // log PE about the target where the bound counts as held,
 constexpr double kTelling = 1;        // damping up to which a rise of the objective is the price of PE
 constexpr double kCrushed = 0.5;      // a rise under heavy damping that is not waited out
 constexpr int kHundreds = 100;        // so many charts ride with the box: of fewer hardly any step is cut short
 constexpr int kPace = 30;             // iterations over which a pace is taken
 constexpr double kQuickening = 3;     // a pace may grow by so much
 constexpr double kWorthOfPace = 5;    // times the least change: what so many iterations have to bring,
+constexpr double kWorthOfSlide = 20;  // and times what is negligible: charts that slide along each other do so for hundreds,
 constexpr double kWorthOfJam = 5e-6;  // and where charts press against each other
 
 /// Where the iteration is.
@@ -210,12 +212,13 @@ bool too_slow(const Task& task, const Iterate& at, int iteration, Counters& coun
   return std::isfinite(before) && kQuickening * paces * std::log(before / at.energy) < std::log(at.energy / useful);
 }
 
-/// Where iterations at the bound go on and on, yet bring next to nothing.
+/// Where iterations at the bound, or next to it, go on and on, yet bring next to nothing.
 void count_unrewarded(const Task& task, const Iterate& at, const Schedule& schedule, Counters& counters) {
-  if (!task.holds_bound(at) || !task.within_limit(at)) return;
+  const bool on_target = task.holds_bound(at) || task.deficit(at, schedule.margin) < kOnTarget;
+  if (!on_target || !task.within_limit(at)) return;
   const ReduceProblem& problem = task.problem;
   const double worth = kWorthOfPace * problem.least_change * (at.energy - 1) +
-                       std::max(problem.negligible, schedule.damping > kTelling ? kWorthOfJam : 0);
+                       std::max(kWorthOfSlide * problem.negligible, schedule.damping > kTelling ? kWorthOfJam : 0);
   const bool rewarded = !(at.energy > counters.rewarded_at - worth);
   counters.unrewarded = rewarded ? 0 : counters.unrewarded + 1;
   if (rewarded) counters.rewarded_at = at.energy;
@@ -224,7 +227,7 @@ void count_unrewarded(const Task& task, const Iterate& at, const Schedule& sched
 Counters counted(const Task& task, const Change& change, const Iterate& at, const Schedule& schedule, Counters counters) {
   const ReduceProblem& problem = task.problem;
   const double deficit = task.deficit(at, schedule.margin);
-  const bool on_target = !task.bounded() || std::abs(deficit) < 1e-4 || (task.holds_bound(at) && at.price == 0);
+  const bool on_target = !task.bounded() || std::abs(deficit) < kOnTarget || (task.holds_bound(at) && at.price == 0);
   // What PE gained or lost has its price.
   const double moved = std::abs(change.energy - (at.pe > 0 ? at.price * change.pe / at.pe : 0));
   const bool quiet = moved < problem.least_change * (at.energy - 1) + problem.negligible && at.fraction > 0.1;
