@@ -155,6 +155,16 @@ TEST(Stacks, ChartsOnEachOtherStayOnEachOther) {
   }
 }
 
+TEST(Stacks, FollowersKeepTheDensityThatTheirOwnSurfaceHas) {
+  const Atlas one = star();
+  Atlas larger = one;
+  for (Vec3& p : larger.positions) p = 2 * p;
+  const RefineResult result = refine(shapes::combine({one, larger, moved(star(), {2, 0})}), {.density = Density::Keep});
+  ASSERT_EQ(result.charts[1].fate, Fate::Stacked);
+  for (const auto density : {&ChartReport::density_before, &ChartReport::density_after})
+    EXPECT_NEAR(result.charts[1].*density, 0.5 * result.charts[0].*density, 1e-9);
+}
+
 TEST(Stacks, AMirroredHalfStaysOnTheOther) {
   // The same UVs on a surface that is mirrored in space: wound the other way.
   const Atlas one = star();

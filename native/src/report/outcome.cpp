@@ -2,6 +2,7 @@
 #include "report/outcome.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "report/certify.h"
@@ -31,7 +32,10 @@ std::vector<ChartReport> chart_reports(const InputAtlas& whole, const Participan
     own.stacked_on = follower.leader;
     own.distortion_after = leader.distortion_after;
     own.stretch_max = leader.stretch_max;
-    own.density_after = leader.density_after;
+    // They cover the same of the texture, whatever they have of the surface.
+    const double denser = own.area > 0 ? std::sqrt(leader.area / own.area) : 0;
+    own.density_before = denser * leader.density_before;
+    own.density_after = denser * leader.density_after;
   }
   return out;
 }
