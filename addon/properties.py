@@ -192,7 +192,12 @@ def _chart_properties():
             "Texel Density",
             "How large the charts are beside each other",
             [
-                ("KEEP", "Keep", "Each chart keeps the relative size it has, as far as bending leaves it that"),
+                (
+                    "KEEP",
+                    "Keep",
+                    "Each chart keeps the relative size it has, as far as bending leaves it that. A Texture Use that only charts blown up "
+                    "would reach is not reached, and the message names the one that is",
+                ),
                 ("EQUAL", "Equal", "The same number of texels for every part of the surface"),
                 (
                     "VALUE",

@@ -62,7 +62,8 @@ relax            where less would hold the bound, go on to the least distortion 
 best_effort      where the bound is not reached return the best valid atlas within both limits (bound_met says so), with
                  "needed" seams the least distorted one; default False
 density          "equal" (default): one scale for all charts; "keep": each chart its own, as far as bending leaves it that; a
-                 warning names those whose texel density changed by more than 10 %
+                 warning names those whose texel density changed by more than 10 %; a bound that only charts of more than 1.5
+                 times the density of the others would hold is not reached
 uv_density       the size of the result as sqrt(UV area / surface area), UV units (of the texture's height) per model unit. A free
                  box may reach beyond [0, 1]^2 then; 0 (default): its longer side is 1. With in_texture charts cover what that
                  size takes, if it is no more than pe_bound, and bend only as far as that asks; else they fill the texture

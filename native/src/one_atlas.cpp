@@ -12,6 +12,7 @@
 #include "placing.h"
 #include "rectangles.h"
 #include "reduce/goal.h"
+#include "reduce/kept_density.h"
 #include "report/certify.h"
 #include "report/locked.h"
 #include "report/texture.h"
@@ -198,8 +199,14 @@ std::string words_on_limits(const RefineOptions& options) {
   return distortion + (distortion.empty() || stretch.empty() ? "" : " and ") + stretch;
 }
 
+/// Why a bound is not held where densities are kept; `charts`: those that would have to.
+std::string words_on_outgrown(int charts) {
+  return "for more, " + std::to_string(charts) + (charts == 1 ? " chart" : " charts") + " would have to grow to over " +
+         number_text("%g", kMostDense) + " times the texel density of the others";
+}
+
 /// Why the result is not what was asked for; empty where it is.
-std::string shortfall(const InputAtlas& input, const RefineOptions& options, const Measures& after) {
+std::string shortfall(const InputAtlas& input, const RefineOptions& options, const Measures& after, int outgrown) {
   const std::string figures = "packing efficiency " + number_text("%.4f", after.pe_fixed_aspect) + " at E_d " +
                               number_text("%.4f", after.distortion) +
                               (options.max_stretch ? ", stretch " + number_text("%.4f", after.stretch_99) : "");
@@ -214,7 +221,8 @@ std::string shortfall(const InputAtlas& input, const RefineOptions& options, con
   if (after.pe_fixed_aspect >= options.pe_bound) return "";
   return message_prefix(input.atlas) + "the bound " + number_text("%g", options.pe_bound) + " was not reached" +
          (limit.empty() ? "" : " within " + limit) + "; the best found is " + figures +
-         words_on_kept(input.set.charts, freedom_of(input.set, options), options.box_aspect);
+         words_on_kept(input.set.charts, freedom_of(input.set, options), options.box_aspect) +
+         (outgrown > 0 ? ": " + words_on_outgrown(outgrown) : "");
 }
 
 Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, CertifiedSolution certified) {
@@ -231,7 +239,7 @@ Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, Certif
               .cuts = std::move(solution.cuts),
               .charts = std::move(certified.atlas.charts),
               .pieces = std::move(certified.atlas.pieces)};
-  const std::string missed = shortfall(input, options, out.after);
+  const std::string missed = shortfall(input, options, out.after, solution.outgrown);
   out.bound_met = missed.empty();
   // Where cuts are allowed limits of distortion are a goal like the bound, else they are what the effort must keep.
   const bool acceptable = options.seams == Seams::Needed || within_limits(options, out.after);
@@ -243,26 +251,30 @@ Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, Certif
   return out;
 }
 
-/// With kept densities the charts whose texel density the squeeze has changed all the same.
+/// With kept densities the charts whose texel density has changed all the same.
 void warn_of_density(const InputAtlas& input, const RefineOptions& options, const std::vector<ChartReport>& charts,
                      Journal& journal) {
   constexpr double kNotable = 0.1;
   if (options.density != Density::Keep) return;
   const Freedoms freedom = freedom_of(input.set, options);
   std::vector<int> changed;
-  double most = 0;
+  double least = 1, most = 1;
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
     if (is_fixed(freedom, c)) continue;
-    const double change = std::abs(charts[c].density_after / charts[c].density_before - 1);
-    if (change > kNotable) changed.push_back(input.set.charts[c].number);
-    most = std::max(most, change);
+    const double times = charts[c].density_after / charts[c].density_before;
+    if (std::abs(times - 1) > kNotable) changed.push_back(input.set.charts[c].number);
+    least = std::min(least, times);
+    most = std::max(most, times);
   }
-  if (!changed.empty())
-    journal.warnings.push_back(charts_named(changed) + ": bending changed the texel density by up to " +
-                               number_text("%.0f %%", 100 * most));
+  if (changed.empty()) return;
+  const std::string down = least < 1 - kNotable ? "down to " + number_text("%.2f", least) : "";
+  const std::string up = most > 1 + kNotable ? "up to " + number_text("%.2f", most) : "";
+  journal.warnings.push_back(charts_named(changed) + ": bent or mended, with a texel density " + down +
+                             (down.empty() || up.empty() ? "" : " and ") + up + " times what it was");
 }
 
 void warn_of_early_end(const Solution& solution, Journal& journal) {
+  if (solution.outgrown > 0) journal.warnings.push_back("the bound was not reached: " + words_on_outgrown(solution.outgrown));
   const char* why = solution.ended == Ended::Stalled           ? "stalled"
                     : solution.ended == Ended::OutOfIterations ? "ran out of iterations"
                     : solution.ended == Ended::Stopped         ? "was stopped"
@@ -292,7 +304,7 @@ Outcome all_locked(const InputAtlas& input, const RefineOptions& options, bool h
   Outcome out = unchanged(input, options);
   out.bound_met = holds;
   if (!holds && !(options.best_effort && within_limits(options, input.measures)))
-    throw RefineError(ErrorCode::BoundNotReached, "input", shortfall(input, options, input.measures));
+    throw RefineError(ErrorCode::BoundNotReached, "input", shortfall(input, options, input.measures, 0));
   return out;
 }
 

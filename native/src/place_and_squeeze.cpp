@@ -65,12 +65,13 @@ void warn_of_gap(const Refinement& run, const Gap& gap, const std::string& why) 
                                  number_text("%g", gap.value) + " of the box diagonal: " + why);
 }
 
-SqueezeOptions squeeze_options(const Refinement& run, const Freedoms& freedom, const std::vector<Gap>& gaps,
-                               const DistortionLimits& limits = {}) {
+SqueezeOptions squeeze_options(const Refinement& run, const CutAtlas& atlas, const Freedoms& freedom,
+                               const std::vector<Gap>& gaps, const DistortionLimits& limits = {}) {
   return {.pe_bound = run.options.pe_bound,
           .box_aspect = run.options.box_aspect,
           .gaps = gaps,
           .limits = limits,
+          .wanted_areas = kept_areas(run.input.set.charts, atlas, run.options, freedom),
           .threads = run.threads,
           .freedom = freedom,
           .stored = run.options.stored};
@@ -78,7 +79,7 @@ SqueezeOptions squeeze_options(const Refinement& run, const Freedoms& freedom, c
 
 Squeezed squeeze_from(const Refinement& run, const CutAtlas& atlas, const std::vector<PlacedCharts>& starts,
                       const Freedoms& freedom, const std::vector<Gap>& gaps, const DistortionLimits& limits) {
-  const SqueezeOptions options = squeeze_options(run, freedom, gaps, limits);
+  const SqueezeOptions options = squeeze_options(run, atlas, freedom, gaps, limits);
   Squeezed squeezed = squeeze(starts, goal_of(run.input.set.charts, atlas, run.options), options, run.monitor);
   run.journal.iterations += squeezed.iterations;
   return squeezed;
@@ -95,6 +96,7 @@ void squeeze_into(const Refinement& run, const std::vector<PlacedCharts>& starts
   out.price = best.outcome.price;
   out.rough_energy = best.rough_energy;
   out.end = best.outcome.end;
+  out.outgrown = static_cast<int>(best.outcome.outgrown.size());
   warn_of_gap(run, best.gap, best.gap_note);
 }
 
@@ -109,7 +111,7 @@ bool is_far_above(const Refinement& run, const CutAtlas& atlas, const PlacedChar
   constexpr double kFar = 3e-3;  // what a forecast may be wrong by, and more
   if (!reduces_distortion(run.options)) return false;
   const Objective objective = goal_of(run.input.set.charts, atlas, run.options);
-  const auto forecast = squeeze_coarse_charts({start}, objective, squeeze_options(run, freedom, gaps), run.monitor);
+  const auto forecast = squeeze_coarse_charts({start}, objective, squeeze_options(run, atlas, freedom, gaps), run.monitor);
   return forecast && forecast->outcome.holds() && forecast->outcome.energy > most + kFar;
 }
 
@@ -125,7 +127,7 @@ InPlace in_place(const Refinement& run, const CutAtlas& laid, const Solution& fr
   InPlace out{.start = {.charts = meshes_of(laid), .frame = laid.frame},
               .objective = goal_of(run.input.set.charts, laid, run.options),
               .warm = from.end,
-              .options = squeeze_options(run, freedom_of_pieces(freedom_of(run.input.set, run.options), laid), {from.gap})};
+              .options = squeeze_options(run, laid, freedom_of_pieces(freedom_of(run.input.set, run.options), laid), {from.gap})};
   out.warm.near_borders.clear();  // of other vertices
   return out;
 }
@@ -298,7 +300,7 @@ std::optional<Forecast> forecast_anew(const Refinement& run, const CutAtlas& atl
         any_fixed(freedom) ? charts : relaxed_apart(charts, objective, gaps.front(), freedom, run.monitor);
     return place(run, shapes, freedom, gaps.front(), kNearly * run.options.pe_bound, PackSearch::Fair);
   };
-  const SqueezeOptions options = squeeze_options(run, freedom, gaps);
+  const SqueezeOptions options = squeeze_options(run, atlas, freedom, gaps);
   Forecast out = forecast_squeeze(pieces, goal_of(run.input.set.charts, atlas, run.options), placer, options, run.monitor);
   if (!out.end.outcome.holds()) return std::nullopt;
   return out;
@@ -307,7 +309,7 @@ std::optional<Forecast> forecast_anew(const Refinement& run, const CutAtlas& atl
 std::optional<Solution> squeeze_as_forecast(const Refinement& run, const CutAtlas& atlas, const Forecast& forecast) {
   const Freedoms freedom = freedom_of_pieces(freedom_of(run.input.set, run.options), atlas);
   const auto end = squeeze_as_forecast(meshes_of(atlas), goal_of(run.input.set.charts, atlas, run.options), forecast,
-                                       squeeze_options(run, freedom, {forecast.end.gap}), run.monitor);
+                                       squeeze_options(run, atlas, freedom, {forecast.end.gap}), run.monitor);
   if (!end || !end->outcome.holds()) return std::nullopt;
   run.journal.iterations += end->outcome.iterations;
   warn_of_gap(run, end->gap, end->gap_note);

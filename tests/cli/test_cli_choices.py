@@ -130,3 +130,24 @@ def test_a_group_below_the_bound_keeps_its_uvs(program, tmp_path):
     assert not told["material glass"]["bound_met"]
     assert "the bound 0.8 was not reached" in told["material glass"]["reason"]
     assert set(uvs(target.read_text())) >= {(0.25, 0.25), (0.5, 0.25), (0.25, 0.3)}
+
+
+def test_kept_densities_are_not_given_up_for_the_bound(program, tmp_path):
+    """A plank of one face as long as the box, and two squares that would have to fill the rest of it."""
+    sizes = [(1, 16), (1, 1), (1, 1)]
+    corners = [(3 * k + x * w, y * h) for k, (w, h) in enumerate(sizes) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    faces = ["f " + " ".join(f"{4 * k + i}/{4 * k + i}" for i in (1, 2, 3, 4)) for k in range(len(sizes))]
+    text = "\n".join([f"v {x} {y} 0\nvt {x / 16} {y / 16}" for x, y in corners] + faces) + "\n"
+    source, target = tmp_path / "plank.obj", tmp_path / "out_of_reach.obj"
+    source.write_text(text)
+    options = ("--aspect", "square", "--density", "keep", "--gap", "0.002")
+    message = program.refused(4, source, "-o", target, *options)
+    assert "for more, 2 charts would have to grow to over 1.5 times the texel density of the others" in message
+    assert not target.exists()
+    _, told = run(program, tmp_path, text, *options, "--best-effort")
+    assert not told["bound_met"]
+    assert told["ended"] == "distortion_limit"
+    assert f"the best found is packing efficiency {told['after']['pe_fixed_aspect']:.4f}" in message
+    assert any("the bound was not reached: for more, 2 charts" in line for line in told["warnings"])
+    times = [chart["density_after"] / chart["density_before"] for chart in told["charts"]]
+    assert max(times) < 1.8 * min(times)

@@ -76,6 +76,19 @@ bool set_density(std::vector<Chart>& charts, const std::vector<double>& wanted, 
   return most > 1.001 * least;
 }
 
+std::vector<double> kept_areas(const std::vector<Chart>& input, const CutAtlas& atlas, const RefineOptions& options,
+                               const Freedoms& freedom) {
+  if (options.density != Density::Keep) return {};
+  const std::vector<double> wanted = wanted_density(input, options.density);
+  std::vector<double> out;
+  for (std::size_t p = 0; p < atlas.pieces.size(); ++p) {
+    const Piece& piece = atlas.pieces[p];
+    const double density = is_fixed(freedom, p) ? 0 : wanted[piece.chart];
+    out.push_back(density * density * piece.mesh.surface.area());
+  }
+  return out;
+}
+
 void restore_shapes(const std::vector<Chart>& input, const Freedoms& freedom, CutAtlas& atlas) {
   for (Piece& piece : atlas.pieces) {
     if (freedom.empty() || freedom[piece.chart] != Freedom::Moves) continue;

@@ -19,6 +19,10 @@ std::vector<double> wanted_density(const std::vector<Chart>& input, Density dens
 /// area. Fixed charts keep theirs. True where the others' relative scales changed by more than a thousandth.
 bool set_density(std::vector<Chart>& charts, const std::vector<double>& wanted, Density density, const Freedoms& freedom = {});
 
+/// UV area of each piece as it is to be where charts keep their densities, 0 of fixed ones; empty where they do not keep them.
+std::vector<double> kept_areas(const std::vector<Chart>& input, const CutAtlas& atlas, const RefineOptions& options,
+                               const Freedoms& freedom);
+
 /// Pieces whose charts only move get the shapes of their charts in `input` back, to rounding: the similar image that is nearest
 /// to what they are.
 void restore_shapes(const std::vector<Chart>& input, const Freedoms& freedom, CutAtlas& atlas);

@@ -200,6 +200,17 @@ double chart_area(const ReduceModel& model, const std::vector<Vec2>& x) {
   return 0.5 * twice;
 }
 
+std::vector<double> piece_areas(const ReduceModel& model, const std::vector<Vec2>& x) {
+  const Boundary& boundary = model.boundary;
+  std::vector<double> areas(model.first_vertex.size() - 1, 0);
+  for (int e = 0; e < boundary.size(); ++e) {
+    const Vec2& a = x[boundary.vertex[e]];
+    const Vec2& b = x[boundary.vertex[boundary.next[e]]];
+    areas[boundary.chart[e]] += 0.5 * (a.x() * b.y() - a.y() * b.x());
+  }
+  return areas;
+}
+
 double box_pe(const ReduceModel& model, const ReduceState& state) {
   return chart_area(model, state.x) / state.box.prod() + model.fixed_share;
 }

@@ -57,7 +57,8 @@ ReduceModel make_model(const ReduceProblem& problem);
 double gap_unit(const ReduceModel& model, const Vec2& box);
 
 double chart_area(const ReduceModel& model, const std::vector<Vec2>& x);
-double box_pe(const ReduceModel& model, const ReduceState& state);    ///< against the unknown box
+std::vector<double> piece_areas(const ReduceModel& model, const std::vector<Vec2>& x);  ///< those of fixed pieces as one
+double box_pe(const ReduceModel& model, const ReduceState& state);                      ///< against the unknown box
 double tight_pe(const ReduceModel& model, const ReduceState& state);  ///< against the vertices' box of the asked aspect
 /// Gradient of log box_pe, one entry per node.
 std::vector<Vec2> pe_gradient(const ReduceModel& model, const ReduceState& state);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "reduce/contact_set.h"
+#include "reduce/kept_density.h"
 #include "reduce/model.h"
 #include "reduce/schedule.h"
 #include "support/parallel.h"
@@ -36,6 +37,7 @@ struct Iterate {
   ReduceState state;
   double energy = 0;
   double used_limits = 0;  ///< of distortion; above 1 one is exceeded
+  double outgrown = 0;     ///< used_by_outgrown()
   double pe = 0;
   double price = 0;
   double fraction = 1;  ///< of the last step that was taken
@@ -65,6 +67,8 @@ struct Task {
   bool bounded() const { return model.has_box; }
   bool holds_bound(const Iterate& at) const { return !bounded() || at.pe >= problem.pe_target; }
   bool within_limit(const Iterate& at) const { return at.used_limits <= 1; }
+  /// Densities may be outgrown on the way: PE that climbs costs more than PE that has come to rest.
+  bool within_all(const Iterate& at) const { return within_limit(at) && at.outgrown <= 1; }
   /// log of target / PE, positive while the bound does not hold.
   double deficit(const Iterate& at, double margin) const {
     return bounded() ? std::log(problem.pe_target * (1 + kTargetSlack + margin) / at.pe) : 0;
@@ -76,6 +80,8 @@ void measure(const Task& task, Iterate& at) {
   if (task.bounded()) at.pe = tight_pe(task.model, at.state);
   const DistortionLimits& limits = task.problem.limits;
   if (limits.any()) at.used_limits = used_limits(task.problem.charts, limits, task.model, at.state.x);
+  const std::vector<double>& wanted = task.problem.wanted_areas;
+  if (!wanted.empty()) at.outgrown = used_by_outgrown(piece_areas(task.model, at.state.x), wanted);
 }
 
 Iterate first_iterate(const Task& task) {
@@ -251,9 +257,10 @@ std::optional<ReduceStatus> ended(const Task& task, const Iterate& at, const Sch
                                   double first_energy) {
   const ReduceProblem& problem = task.problem;
   const bool holds = task.holds_bound(at);
-  if (holds && counters.calm >= 2) return task.within_limit(at) ? ReduceStatus::Converged : ReduceStatus::TooDistorted;
+  const ReduceStatus at_rest = task.within_all(at) ? ReduceStatus::Converged : ReduceStatus::TooDistorted;
+  if (holds && counters.calm >= 2) return at_rest;
   if (holds && problem.enough_distortion > 0 && at.energy <= problem.enough_distortion) return ReduceStatus::Enough;
-  if (holds && task.within_limit(at) && counters.unrewarded >= kPace) return ReduceStatus::Converged;
+  if (holds && task.within_limit(at) && counters.unrewarded >= kPace) return at_rest;
   if (counters.distorted >= 4) return ReduceStatus::TooDistorted;
   if (!holds && problem.max_rise > 0 && counters.expensive >= 3) return ReduceStatus::TooExpensive;
   if (counters.idle >= kStallIterations || wedged(schedule, at.energy, first_energy)) return ReduceStatus::Stalled;
@@ -262,9 +269,9 @@ std::optional<ReduceStatus> ended(const Task& task, const Iterate& at, const Sch
 
 /// True where `a` is a better result than `b`; `least`: energy so far.
 bool better(const Task& task, const Iterate& a, const Iterate& b, double least) {
-  const bool a_within = task.within_limit(a), b_within = task.within_limit(b);
+  const bool a_within = task.within_all(a), b_within = task.within_all(b);
   if (a_within != b_within) return a_within;
-  if (!a_within) return a.used_limits < b.used_limits;
+  if (!a_within) return std::max(a.used_limits, a.outgrown) < std::max(b.used_limits, b.outgrown);
   const bool a_holds = task.holds_bound(a), b_holds = task.holds_bound(b);
   if (a_holds != b_holds) return a_holds;
   if (a_holds) return a.energy < b.energy;
@@ -291,8 +298,8 @@ ReduceResult result_of(const Task& task, const Iterate& best, ReduceStatus statu
     near = {model.boundary.vertex[near.vertex], model.boundary.vertex[near.edge], near.floor};
   if (task.problem.frame.x() > 0) out.frame = out.end.box;
   out.reached = task.holds_bound(best);
-  out.within_limit = task.within_limit(best);
-  out.used_limits = best.used_limits;
+  out.within_limit = task.within_all(best);
+  out.used_limits = std::max(best.used_limits, best.outgrown);
   out.pe = best.pe;
   out.energy = best.energy;
   out.distortion = surface_distortion(task.problem.charts, model, best.state.x);
@@ -354,6 +361,8 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
     if (better(task, at, best, std::min(first_energy, counters.least_energy))) best = at;
   }
   ReduceResult out = result_of(task, best, status, schedule.stiffness, iteration);
+  if (!out.holds() && task.holds_bound(at) && at.outgrown > 1)
+    out.outgrown = outgrown_charts(piece_areas(model, at.state.x), problem.wanted_areas);
   out.first_energy = first_energy;
   out.least_energy = std::min(counters.least_energy, first_energy);
   return out;

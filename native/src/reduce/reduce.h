@@ -47,6 +47,7 @@ struct ReduceProblem {
   double least_change = 2e-4;    ///< at the optimum where the objective - 1 changes by less, relative, twice in a row
   double negligible = 1e-8;      ///< or by less than this; what the present price gives for a change of PE is left out
   DistortionLimits limits = {};  ///< on the surface: give up the climb once one is exceeded at its least
+  std::vector<double> wanted_areas = {};  ///< per chart, whose density is kept: no result may have them outgrown
   double max_rise = 0;  ///< give up the climb where the objective exceeds its least so far by this factor - 1; 0 = no limit
   double most_energy =
       0;  ///< give up where the objective falls so slowly that it ends far above this; 0 = no limit; without a box
@@ -62,7 +63,7 @@ enum class ReduceStatus {
   Converged,     ///< the target holds and the objective is at its optimum there
   Enough,        ///< the target holds and the objective is at most enough_distortion
   Stalled,       ///< no further progress; `reached` tells whether the target holds
-  TooDistorted,  ///< a limit of distortion was met before the target
+  TooDistorted,  ///< a limit of distortion, or of kept densities, was met before the target
   TooExpensive,  ///< max_rise was met before the target
   OutOfTime,     ///< max_iterations
   Stopped,       ///< the monitor asked for the best state so far
@@ -78,7 +79,7 @@ struct ReduceProgress {
 /// Called before every iteration; false ends with the best state so far. May throw to cancel.
 using ReduceMonitor = std::function<bool(const ReduceProgress&)>;
 
-/// The best state that was found: within its limits of distortion if any was, then at the target if any was, then of the least
+/// The best state that was found: within its limits if any was, then at the target if any was, then of the least
 /// objective there, or the one that is worth the most below it (`worth_below_target`): a high PE, but not of charts that were
 /// crushed for it.
 struct ReduceResult {
@@ -87,7 +88,7 @@ struct ReduceResult {
   WarmStart end;                       ///< for a problem that goes on from here
   ReduceStatus status = ReduceStatus::Converged;
   bool reached = false;  ///< PE of the frame, or of the charts' own bounding box (of the asked aspect), is at least the target
-  bool within_limit = true;  ///< of distortion
+  bool within_limit = true;  ///< of distortion and of kept densities
   double used_limits = 0;    ///< the part of them that is used: above 1 one is exceeded
   bool holds() const { return reached && within_limit; }
   double pe = 0;
@@ -97,6 +98,7 @@ struct ReduceResult {
   double distortion = 0;    ///< E_d on the surface, under the one global scale that minimises it
   double price = 0;         ///< lambda: marginal objective for one unit of log PE
   int iterations = 0;
+  std::vector<int> outgrown = {};  ///< charts that outgrew their densities where the target only holds so
   /// Where the objective is lost, and what holds the charts apart: what a cut or a heat map is chosen by.
   std::vector<std::vector<double>> triangle_energy;  ///< per chart and triangle, unweighted, 1 = the wanted shape
   std::vector<std::vector<Vec2>> contact_forces;     ///< per chart and vertex: objective / length, in units of sqrt(surface area)

@@ -58,14 +58,14 @@ bool spares(const ReduceResult& result, const ReduceResult& larger) {
 }
 
 /// Why a gap was given up.
-std::string reason(const Gap& gap, ReduceStatus status) {
+std::string reason(const Gap& gap, ReduceStatus status, bool outgrown) {
   char text[32];
   std::snprintf(text, sizeof text, "at %g ", gap.value);
   switch (status) {
     case ReduceStatus::TooExpensive:
       return std::string(text) + "the bound costs too much distortion";
     case ReduceStatus::TooDistorted:
-      return std::string(text) + "a limit of distortion is exceeded";
+      return std::string(text) + (outgrown ? "charts outgrow their texel density" : "a limit of distortion is exceeded");
     case ReduceStatus::OutOfTime:
       return std::string(text) + "the bound was not reached in time";
     default:
@@ -132,6 +132,7 @@ ReduceProblem problem_at(const PlacedCharts& start, const Objective& objective, 
           .gap = beyond_rounding(gap, options.stored),
           .box_aspect = options.box_aspect,
           .pe_target = options.pe_bound,
+          .wanted_areas = options.wanted_areas,
           .max_iterations = options.max_iterations,
           .threads = options.threads,
           .freedom = options.freedom,
@@ -150,7 +151,8 @@ Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objecti
     const bool held = !first && out.outcome.holds();
     const bool done =
         result.holds() && (starts.front().charts.size() == 1 || result.energy <= (1 + kNoticeable) * result.least_energy);
-    const std::string next_note = reason(gap, result.holds() ? ReduceStatus::TooExpensive : result.status);
+    const std::string next_note =
+        reason(gap, result.holds() ? ReduceStatus::TooExpensive : result.status, !result.outgrown.empty());
     present = usable(result) ? std::vector<PlacedCharts>{with_uvs_of(present[best], result)} : starts;
     if (held && !spares(result, out.outcome)) break;
     if (first || better(result, out.outcome)) {

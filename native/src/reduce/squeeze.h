@@ -15,8 +15,9 @@ namespace atlas_refine {
 struct SqueezeOptions {
   double pe_bound = 0.8;
   double box_aspect = 0;
-  std::vector<Gap> gaps;         ///< to be tried in this order: the asked one, then smaller ones where that is allowed
-  DistortionLimits limits = {};  ///< of the surface
+  std::vector<Gap> gaps;                  ///< to be tried in this order: the asked one, then smaller ones where that is allowed
+  DistortionLimits limits = {};           ///< of the surface
+  std::vector<double> wanted_areas = {};  ///< ReduceProblem::wanted_areas
   int threads = 1;
   Freedoms freedom = {};       ///< of the charts; fixed ones need starts in a frame
   double least_change = 5e-4;  ///< ReduceProblem::least_change: the last 1e-5 of E_d took a third of all iterations
