@@ -92,6 +92,15 @@ TEST(Densities, ASmallerGapDoesNotBlowThemUpEither) {
   EXPECT_LT(growth_of_caps(result), 2);
 }
 
+TEST(Densities, NeededSeamsHoldTheBoundWhereChartsAreTooStiff) {
+  RefineOptions options = keep();
+  options.seams = Seams::Needed;
+  const RefineResult result = refine(pipe(20), options);
+  EXPECT_TRUE(result.bound_met);
+  EXPECT_EQ(result.intervention, Intervention::Cut);
+  EXPECT_LT(growth_of_caps(result), 1.5);
+}
+
 TEST(Densities, EqualOnesHoldTheBoundAtAnyPrice) {
   RefineOptions options = keep();
   options.density = Density::Equal;

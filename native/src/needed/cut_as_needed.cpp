@@ -70,6 +70,7 @@ class Search {
       if (may_need_rectangles()) look_at_rectangles();
     } else {
       look_for_best();
+      if (!std::isfinite(found_.best(wish_).trial.distortion) && !trials_.finishing()) look_at_rectangles();
     }
     SqueezedTrial& chosen = choose();
     chosen.solution.cuts = found_.report(chosen.trial);
@@ -154,7 +155,7 @@ class Search {
   void look_at_rectangles() {
     auto rectangles = trials_.rectangles(rest_);
     if (!rectangles || rectangles->trial.growth > most_growth()) return;
-    if (wish_.is_enough(rectangles->trial)) found_.squeezed.push_back(std::move(*rectangles));
+    if (!wish_.has_limit() || wish_.is_enough(rectangles->trial)) found_.squeezed.push_back(std::move(*rectangles));
   }
 
   double most_growth() const { return options_.max_boundary_growth.value_or(kAnyGrowth); }
