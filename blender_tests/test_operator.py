@@ -187,6 +187,14 @@ class Operator(unittest.TestCase):
         self.assertEqual(bpy.ops.uv.atlas_refine(best_effort=True, **options), {"FINISHED"})
         self.assertGreater(packing_efficiency(obj.data, obj.data.uv_layers.active), before)
 
+    def test_small_charts_are_not_blown_up_beside_a_stiff_one(self):
+        positions, faces, uvs = shapes.grid(1, 1)
+        plank = (positions * [1, 16, 1], faces, uvs * [1, 16])
+        obj = add_mesh(shapes.join(plank, *(shapes.grid(1, 1, origin=(x, 0.0)) for x in (2.0, 4.0))))
+        words = ["the best found is texture use 0.", "for more, 2 charts would have to grow to over 1.5 times the texel density"]
+        self.assert_refused(obj, words)
+        self.assertEqual(bpy.ops.uv.atlas_refine(best_effort=True), {"FINISHED"})
+
     def test_advanced_options_reach_the_engine(self):
         obj = add_mesh()
         options = {"relax": True, "candidates": 20, "threads": 1, "seed": 3, "open_closed": False}
