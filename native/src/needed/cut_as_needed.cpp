@@ -12,13 +12,14 @@ namespace atlas_refine {
 namespace {
 
 constexpr std::size_t kMostPoints = 24;  // of a trade-off
-constexpr int kPackings = 2;             // more of several charts, before any is cut
+constexpr int kPackings = 2;             // more of several charts before any is cut, and of pieces that nearly keep a limit
 constexpr double kByChance = 5e-4;       // of E_d: so much more or less other packings of a file came to
 constexpr double kAnyGrowth = std::numeric_limits<double>::infinity();
 constexpr double kAsGood = 1.02;          // times the boundary, or the cost: what symmetric cuts may have more
 constexpr double kFewOfRectangles = 0.4;  // growth: rectangles add less to 5 of the 46 files of one chart in the bench only
 // Of the excess above the limit, or of the least cost: what is forecast so near may keep it, or be it.
 constexpr double kNear = 0.1;
+constexpr double kNearlyKept = 0.2;  // what came so near may keep it in another packing
 
 /// Several charts are packed by chance: another packing may keep a limit of E_d that the first nearly kept.
 SqueezedTrial without_cuts(CutTrials& trials, const Wish& wish, const ProgressRange& range) {
@@ -102,12 +103,27 @@ class Search {
       for (CutSet* set : path.front(most_growth())) {
         if (set->squeezed || above_limits(path, *set) > kNear) continue;
         const SqueezedTrial* squeezed = path.squeeze(*set);
-        if (squeezed && wish_.is_enough(squeezed->trial)) return;
+        if (squeezed && (wish_.is_enough(squeezed->trial) || another_packing_keeps(*set, squeezed->trial))) return;
       }
     }
     squeeze_best(
         path, [&](const CutSet& set) { return std::exp(above_limits(path, set)); },
         [&](const Trial& trial) { return std::exp(wish_.above_limits(trial.distortion, trial.stretch)); });
+  }
+
+  /// Packings of one set of cuts differ by as much as smaller sets have left to the limit.
+  bool another_packing_keeps(const CutSet& set, const Trial& came) {
+    if (wish_.above_limits(came.distortion, came.stretch) > kNearlyKept) return false;
+    for (int again = 1; again <= kPackings && !trials_.finishing(); ++again) {
+      const auto other = trials_.packed_again(set.trial, again);
+      if (!other || other->foreseen >= set.trial.foreseen) continue;
+      ++found_.tried;
+      auto squeezed = trials_.squeezed(*other, step());
+      if (!squeezed || !wish_.is_enough(squeezed->trial)) continue;
+      found_.squeezed.push_back(std::move(*squeezed));
+      return true;
+    }
+    return false;
   }
 
   void look_for_best() {

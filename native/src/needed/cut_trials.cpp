@@ -240,6 +240,21 @@ std::vector<std::optional<Trial>> CutTrials::forecasts(const std::vector<std::ve
   return out;
 }
 
+std::optional<Trial> CutTrials::packed_again(const Trial& trial, int again) const {
+  const auto charts = made(trial.cuts);
+  const auto atlas = charts ? atlas_of(*charts) : std::nullopt;
+  if (!atlas) return std::nullopt;
+  RefineOptions options = run_.options;
+  options.seed += again;
+  auto forecast = forecast_anew({run_.input, options, run_.monitor, run_.journal, run_.threads, run_.asked}, *atlas);
+  if (!forecast) return std::nullopt;
+  Trial out{.cuts = trial.cuts, .growth = trial.growth};
+  out.foreseen = out.distortion = offset_ + forecast->end.outcome.energy;
+  out.stretch = out.foreseen_stretch = forecast->stretch;
+  out.forecast = std::move(forecast);
+  return out;
+}
+
 /// Where a vertex of a cut piece lies in the chart as repaired.
 Vec2 CutTrials::place_before(const Piece& piece, int vertex) const {
   if (shapes_.uvs[piece.chart].empty()) return piece.mesh.uvs[vertex];

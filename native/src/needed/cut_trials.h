@@ -103,6 +103,8 @@ class CutTrials {
   /// the bound. Sets of one cut more than `present` may also be left in its layout; it must outlive them.
   std::vector<std::optional<Trial>> forecasts(const std::vector<std::vector<CutPlace>>& sets, const SqueezedTrial* present,
                                               const ForecastTerms& terms, const ProgressRange& range) const;
+  /// The same cuts, their pieces packed anew by other random choices; nothing where the bound does not hold.
+  std::optional<Trial> packed_again(const Trial& trial, int again) const;
 
   /// Where one more cut may pay; at most so many across charts, and to points of high curvature.
   std::vector<CutPlace> places(const Trial& present, int straight, int tips) const;
