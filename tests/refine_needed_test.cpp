@@ -330,6 +330,13 @@ TEST(Needed, SeveralChartsAreFirstPackedAgain) {
   EXPECT_GT(tried, 0);
 }
 
+// The first packing of their pieces comes to a little above the limit: twice as many seams kept it.
+TEST(Needed, PiecesThatNearlyKeepTheLimitArePackedAgain) {
+  const Atlas star = shapes::mesh(shapes::star(6), 0.12, 0), random = shapes::mesh(shapes::random_star_polygon(2), 0.08, 0);
+  EXPECT_LT(refine_soundly(star, needed_within(1 + 0.65 * (without_cuts(star) - 1))).boundary_growth, 0.1);
+  EXPECT_LT(refine_soundly(random, needed_within(1 + 0.2 * (without_cuts(random) - 1))).boundary_growth, 0.2);
+}
+
 /// A chart, and beside it its mirror image, whose borders begin elsewhere.
 Atlas with_image(const Atlas& half) {
   double left = half.positions.front().x();

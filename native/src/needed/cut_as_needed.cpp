@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "needed/cut_outcomes.h"
 #include "needed/cut_path.h"
@@ -57,6 +59,20 @@ SqueezedTrial& symmetric(const CutTrials& trials, const Wish& wish, SqueezedTria
   return best;
 }
 
+/// Packings of one set of cuts differ by as much as smaller sets have left to the limit. `forecast` came to `came`.
+std::optional<SqueezedTrial> kept_in_another_packing(const CutTrials& trials, const Wish& wish, const Trial& forecast,
+                                                     const Trial& came, const ProgressRange& range, Outcomes& found) {
+  if (wish.above_limits(came.distortion, came.stretch) > kNearlyKept) return std::nullopt;
+  for (int again = 1; again <= kPackings && !trials.finishing(); ++again) {
+    const auto other = trials.packed_again(forecast, again);
+    if (!other || other->foreseen >= forecast.foreseen) continue;
+    ++found.tried;
+    auto squeezed = trials.squeezed(*other, range);
+    if (squeezed && wish.is_enough(squeezed->trial)) return squeezed;
+  }
+  return std::nullopt;
+}
+
 class Search {
  public:
   Search(CutTrials& trials, const RefineOptions& options, const ProgressRange& range)
@@ -103,27 +119,17 @@ class Search {
       for (CutSet* set : path.front(most_growth())) {
         if (set->squeezed || above_limits(path, *set) > kNear) continue;
         const SqueezedTrial* squeezed = path.squeeze(*set);
-        if (squeezed && (wish_.is_enough(squeezed->trial) || another_packing_keeps(*set, squeezed->trial))) return;
+        if (!squeezed) continue;
+        if (wish_.is_enough(squeezed->trial)) return;
+        auto other = kept_in_another_packing(trials_, wish_, set->trial, squeezed->trial, step(), found_);
+        if (!other) continue;
+        found_.squeezed.push_back(std::move(*other));
+        return;
       }
     }
     squeeze_best(
         path, [&](const CutSet& set) { return std::exp(above_limits(path, set)); },
         [&](const Trial& trial) { return std::exp(wish_.above_limits(trial.distortion, trial.stretch)); });
-  }
-
-  /// Packings of one set of cuts differ by as much as smaller sets have left to the limit.
-  bool another_packing_keeps(const CutSet& set, const Trial& came) {
-    if (wish_.above_limits(came.distortion, came.stretch) > kNearlyKept) return false;
-    for (int again = 1; again <= kPackings && !trials_.finishing(); ++again) {
-      const auto other = trials_.packed_again(set.trial, again);
-      if (!other || other->foreseen >= set.trial.foreseen) continue;
-      ++found_.tried;
-      auto squeezed = trials_.squeezed(*other, step());
-      if (!squeezed || !wish_.is_enough(squeezed->trial)) continue;
-      found_.squeezed.push_back(std::move(*squeezed));
-      return true;
-    }
-    return false;
   }
 
   void look_for_best() {
