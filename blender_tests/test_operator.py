@@ -191,7 +191,7 @@ class Operator(unittest.TestCase):
         positions, faces, uvs = shapes.grid(1, 1)
         plank = (positions * [1, 16, 1], faces, uvs * [1, 16])
         obj = add_mesh(shapes.join(plank, *(shapes.grid(1, 1, origin=(x, 0.0)) for x in (2.0, 4.0))))
-        words = ["the best found is texture use 0.", "for more, 2 charts would have to grow to over 1.5 times the texel density"]
+        words = ["the best found is texture use 0.", "for more, 2 charts would grow to over 1.5 times the texel density"]
         self.assert_refused(obj, words)
         self.assertEqual(bpy.ops.uv.atlas_refine(best_effort=True), {"FINISHED"})
 

@@ -199,9 +199,9 @@ std::string words_on_limits(const RefineOptions& options) {
   return distortion + (distortion.empty() || stretch.empty() ? "" : " and ") + stretch;
 }
 
-/// Why a bound is not held where densities are kept; `charts`: those that would have to.
+/// Why a bound is not held where densities are kept; `charts`: those that would outgrow them.
 std::string words_on_outgrown(int charts) {
-  return "for more, " + std::to_string(charts) + (charts == 1 ? " chart" : " charts") + " would have to grow to over " +
+  return "for more, " + std::to_string(charts) + (charts == 1 ? " chart" : " charts") + " would grow to over " +
          number_text("%g", kMostDense) + " times the texel density of the others";
 }
 
@@ -222,7 +222,7 @@ std::string shortfall(const InputAtlas& input, const RefineOptions& options, con
   return message_prefix(input.atlas) + "the bound " + number_text("%g", options.pe_bound) + " was not reached" +
          (limit.empty() ? "" : " within " + limit) + "; the best found is " + figures +
          words_on_kept(input.set.charts, freedom_of(input.set, options), options.box_aspect) +
-         (outgrown > 0 ? ": " + words_on_outgrown(outgrown) : "");
+         (outgrown > 0 ? "; " + words_on_outgrown(outgrown) : "");
 }
 
 Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, CertifiedSolution certified) {
@@ -260,7 +260,7 @@ void warn_of_density(const InputAtlas& input, const RefineOptions& options, cons
   std::vector<int> changed;
   double least = 1, most = 1;
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
-    if (is_fixed(freedom, c)) continue;
+    if (is_fixed(freedom, c) || !(charts[c].density_before > 0)) continue;
     const double times = charts[c].density_after / charts[c].density_before;
     if (std::abs(times - 1) > kNotable) changed.push_back(input.set.charts[c].number);
     least = std::min(least, times);
@@ -274,7 +274,7 @@ void warn_of_density(const InputAtlas& input, const RefineOptions& options, cons
 }
 
 void warn_of_early_end(const Solution& solution, Journal& journal) {
-  if (solution.outgrown > 0) journal.warnings.push_back("the bound was not reached: " + words_on_outgrown(solution.outgrown));
+  if (solution.outgrown > 0) journal.warnings.push_back("the bound was not reached; " + words_on_outgrown(solution.outgrown));
   const char* why = solution.ended == Ended::Stalled           ? "stalled"
                     : solution.ended == Ended::OutOfIterations ? "ran out of iterations"
                     : solution.ended == Ended::Stopped         ? "was stopped"

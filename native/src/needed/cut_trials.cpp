@@ -195,7 +195,9 @@ std::optional<SqueezedTrial> CutTrials::rectangles(const ProgressRange& range) c
     measure(run_, out->solution, out->trial);
     out->trial.foreseen = out->trial.distortion;
     keep_words(before, *out);
-    out->fallbacks.push_back("cut into rectangles: no fewer seams were found that keep distortion within the limit");
+    const bool has_limit = run_.asked.max_distortion || run_.asked.max_stretch;
+    out->fallbacks.push_back(has_limit ? "cut into rectangles: no fewer seams were found that keep distortion within the limit"
+                                       : "cut into rectangles: no fewer seams were found that hold the bound");
   }
   journal.back_to(before);
   return out;

@@ -361,8 +361,7 @@ ReduceResult reduce_distortion(const ReduceProblem& problem, const ReduceMonitor
     if (better(task, at, best, std::min(first_energy, counters.least_energy))) best = at;
   }
   ReduceResult out = result_of(task, best, status, schedule.stiffness, iteration);
-  if (!out.holds() && task.holds_bound(at) && at.outgrown > 1)
-    out.outgrown = outgrown_charts(piece_areas(model, at.state.x), problem.wanted_areas);
+  if (!out.holds() && at.outgrown > 1) out.outgrown = outgrown_charts(piece_areas(model, at.state.x), problem.wanted_areas);
   out.first_energy = first_energy;
   out.least_energy = std::min(counters.least_energy, first_energy);
   return out;

@@ -98,7 +98,7 @@ struct ReduceResult {
   double distortion = 0;    ///< E_d on the surface, under the one global scale that minimises it
   double price = 0;         ///< lambda: marginal objective for one unit of log PE
   int iterations = 0;
-  std::vector<int> outgrown = {};  ///< charts that outgrew their densities where the target only holds so
+  std::vector<int> outgrown = {};  ///< where no result holds the target: charts that had outgrown their densities in the end
   /// Where the objective is lost, and what holds the charts apart: what a cut or a heat map is chosen by.
   std::vector<std::vector<double>> triangle_energy;  ///< per chart and triangle, unweighted, 1 = the wanted shape
   std::vector<std::vector<Vec2>> contact_forces;     ///< per chart and vertex: objective / length, in units of sqrt(surface area)

@@ -19,6 +19,7 @@ constexpr int kGapSteps = 8;
 constexpr double kNoticeable = 0.02;
 constexpr double kMostRise = 0.06;  // at once where it has risen by more than this,
 constexpr double kSpared = 0.25;    // and is kept where it spares this part of the distortion.
+constexpr double kTrifle = 0.01;    // of PE, which is not worth a smaller gap where charts outgrow their densities all the same
 
 ReduceResult reduce_from(const PlacedCharts& start, const Objective& objective, const Gap& gap, const SqueezeOptions& options,
                          int threads, Monitor& monitor) {
@@ -58,14 +59,14 @@ bool spares(const ReduceResult& result, const ReduceResult& larger) {
 }
 
 /// Why a gap was given up.
-std::string reason(const Gap& gap, ReduceStatus status, bool outgrown) {
+std::string reason(const Gap& gap, ReduceStatus status) {
   char text[32];
   std::snprintf(text, sizeof text, "at %g ", gap.value);
   switch (status) {
     case ReduceStatus::TooExpensive:
       return std::string(text) + "the bound costs too much distortion";
     case ReduceStatus::TooDistorted:
-      return std::string(text) + (outgrown ? "charts outgrow their texel density" : "a limit of distortion is exceeded");
+      return std::string(text) + "a limit of distortion is exceeded";
     case ReduceStatus::OutOfTime:
       return std::string(text) + "the bound was not reached in time";
     default:
@@ -149,13 +150,15 @@ Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objecti
     ReduceResult result = best_at(gap, present, objective, options, monitor, out.iterations, best);
     const bool first = &gap == &options.gaps.front();
     const bool held = !first && out.outcome.holds();
+    const bool outgrown = !result.outgrown.empty();
+    // Room that a smaller gap leaves is room to grow into.
+    const bool trifling = outgrown && !out.outcome.outgrown.empty() && result.pe < (1 + kTrifle) * out.outcome.pe;
     const bool done =
         result.holds() && (starts.front().charts.size() == 1 || result.energy <= (1 + kNoticeable) * result.least_energy);
-    const std::string next_note =
-        reason(gap, result.holds() ? ReduceStatus::TooExpensive : result.status, !result.outgrown.empty());
+    const std::string next_note = reason(gap, result.holds() ? ReduceStatus::TooExpensive : result.status);
     present = usable(result) ? std::vector<PlacedCharts>{with_uvs_of(present[best], result)} : starts;
     if (held && !spares(result, out.outcome)) break;
-    if (first || better(result, out.outcome)) {
+    if (first || (!trifling && better(result, out.outcome))) {
       out.gap = gap;
       out.gap_note = note;
       out.outcome = std::move(result);

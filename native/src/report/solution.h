@@ -30,7 +30,7 @@ struct Solution {
   double price = 0;
   double rough_energy = 0;       ///< Squeezed::rough_energy
   WarmStart end = {};            ///< where it was squeezed: for what goes on from here
-  int outgrown = 0;              ///< how many charts would have to outgrow the density that they keep for the bound
+  int outgrown = 0;              ///< how many charts would outgrow the density that they keep for the bound
   std::vector<int> re_embedded;  ///< charts
   std::optional<RectangleReport> rectangles;
   std::optional<CutReport> cuts;
