@@ -1,6 +1,7 @@
-"""Writes an atlas of many charts: four of five have 2 to 8 triangles, the others are round, every second of those curved.
+"""Writes an atlas of many charts: four of five have 2 to 8 triangles, the others are round, every second of those curved. With BORDER all
+are flat and smooth, with so many vertices along their borders.
 
-usage: many_charts.py CHARTS OUT.obj     then ./dev bench --profile --meshes OUT.obj, or build/atlas-refine OUT.obj -o ...
+usage: many_charts.py CHARTS OUT.obj [BORDER]     then ./dev bench --profile --meshes OUT.obj, or build/atlas-refine OUT.obj -o ...
 """
 
 import math
@@ -21,8 +22,16 @@ def polygon(rng):
 
 
 def disk(rng, bulge):
-    """Rings around a point, the border wavy."""
     rings, sides, size = rng.choice([2, 3, 4, 5]), rng.choice([9, 12, 16, 20]), math.exp(rng.gauss(1, 0.5))
+    return wavy(rng, rings, sides, size, bulge)
+
+
+def smooth(rng, border):
+    return wavy(rng, max(3, border // 40), border, math.exp(rng.gauss(1, 0.4)), 0)
+
+
+def wavy(rng, rings, sides, size, bulge):
+    """Rings around a point, the border wavy."""
     waves, phase = rng.uniform(0.05, 0.3), rng.uniform(0, 2 * math.pi)
     points = [(0.0, 0.0, 0.0)]
     for ring in range(1, rings + 1):
@@ -40,8 +49,10 @@ def disk(rng, bulge):
     return points, triangles
 
 
-def charts(count, seed=1):
+def charts(count, border=None, seed=1):
     rng = random.Random(seed)
+    if border:
+        return [smooth(rng, border) for _ in range(count)]
     return [disk(rng, 0.6 * (k % 2)) if k % 5 == 0 else polygon(rng) for k in range(count)]
 
 
@@ -58,8 +69,8 @@ def in_rows(made):
     return places, max(side, y + height)
 
 
-def write(count, path):
-    made = charts(count)
+def write(count, path, border=None):
+    made = charts(count, border)
     places, side = in_rows(made)
     positions, uvs, faces, first = [], [], [], 1
     for k, (points, triangles) in enumerate(made):
@@ -73,6 +84,6 @@ def write(count, path):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
+    if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
-    write(int(sys.argv[1]), sys.argv[2])
+    write(int(sys.argv[1]), sys.argv[2], *map(int, sys.argv[3:]))

@@ -12,3 +12,15 @@ def test_four_of_five_charts_are_small_and_all_are_valid(tmp_path):
     found = check_atlas.check(str(path), str(path), None, None, cuts=False)
     assert found["ok"], found["problems"]
     assert found["charts"] == 50
+
+
+def test_with_a_border_all_charts_have_as_many_vertices_along_it(tmp_path):
+    path = tmp_path / "smooth.obj"
+    many_charts.write(6, path, 80)
+    found = check_atlas.check(str(path), str(path), None, None, cuts=False)
+    assert found["ok"], found["problems"]
+    assert found["charts"] == 6
+    for points, triangles in many_charts.charts(6, 80):
+        sides = [frozenset((t[k], t[(k + 1) % 3])) for t in triangles for k in range(3)]
+        assert sum(sides.count(side) == 1 for side in set(sides)) == 80
+        assert all(z == points[0][2] for _, _, z in points)

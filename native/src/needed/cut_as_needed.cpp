@@ -59,10 +59,9 @@ SqueezedTrial& symmetric(const CutTrials& trials, const Wish& wish, SqueezedTria
   return best;
 }
 
-/// Packings of one set of cuts differ by as much as smaller sets have left to the limit. `forecast` came to `came`.
+/// Packings of one set of cuts differ by as much as smaller sets have left to the limit.
 std::optional<SqueezedTrial> kept_in_another_packing(const CutTrials& trials, const Wish& wish, const Trial& forecast,
-                                                     const Trial& came, const ProgressRange& range, Outcomes& found) {
-  if (wish.above_limits(came.distortion, came.stretch) > kNearlyKept) return std::nullopt;
+                                                     const ProgressRange& range, Outcomes& found) {
   for (int again = 1; again <= kPackings && !trials.finishing(); ++again) {
     const auto other = trials.packed_again(forecast, again);
     if (!other || other->foreseen >= forecast.foreseen) continue;
@@ -87,7 +86,8 @@ class Search {
       if (may_need_rectangles()) look_at_rectangles();
     } else {
       look_for_best();
-      if (!std::isfinite(found_.best(wish_).trial.distortion) && !trials_.finishing()) look_at_rectangles();
+      const bool held = std::isfinite(found_.best(wish_).trial.distortion);  // the bound
+      if (!held && !trials_.finishing()) look_at_rectangles();
     }
     SqueezedTrial& chosen = choose();
     chosen.solution.cuts = found_.report(chosen.trial);
@@ -120,8 +120,10 @@ class Search {
         if (set->squeezed || above_limits(path, *set) > kNear) continue;
         const SqueezedTrial* squeezed = path.squeeze(*set);
         if (!squeezed) continue;
-        if (wish_.is_enough(squeezed->trial)) return;
-        auto other = kept_in_another_packing(trials_, wish_, set->trial, squeezed->trial, step(), found_);
+        const Trial& came = squeezed->trial;
+        if (wish_.is_enough(came)) return;
+        if (wish_.above_limits(came.distortion, came.stretch) > kNearlyKept) continue;
+        auto other = kept_in_another_packing(trials_, wish_, set->trial, step(), found_);
         if (!other) continue;
         found_.squeezed.push_back(std::move(*other));
         return;

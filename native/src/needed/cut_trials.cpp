@@ -203,6 +203,12 @@ std::optional<SqueezedTrial> CutTrials::rectangles(const ProgressRange& range) c
   return out;
 }
 
+void CutTrials::foresee(Forecast forecast, Trial& out) const {
+  out.foreseen = out.distortion = offset_ + forecast.end.outcome.energy;
+  out.stretch = out.foreseen_stretch = forecast.stretch;
+  out.forecast = std::move(forecast);
+}
+
 std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, const SqueezedTrial* present,
                                          const ForecastTerms& terms) const {
   const auto charts = made(cuts);
@@ -221,9 +227,7 @@ std::optional<Trial> CutTrials::forecast(const std::vector<CutPlace>& cuts, cons
   if (!left && !moved) return std::nullopt;
   const bool stays = left && (!moved || left->end.outcome.energy + bias.in_place <= moved->end.outcome.energy + bias.anew);
   if (stays) out.in_place_of = present;
-  out.forecast = std::move(stays ? left : moved);
-  out.foreseen = out.distortion = offset_ + out.forecast->end.outcome.energy;
-  out.stretch = out.foreseen_stretch = out.forecast->stretch;
+  foresee(std::move(stays ? *left : *moved), out);
   out.losses = losses(*atlas, *out.forecast);
   return out;
 }
@@ -251,9 +255,7 @@ std::optional<Trial> CutTrials::packed_again(const Trial& trial, int again) cons
   auto forecast = forecast_anew({run_.input, options, run_.monitor, run_.journal, run_.threads, run_.asked}, *atlas);
   if (!forecast) return std::nullopt;
   Trial out{.cuts = trial.cuts, .growth = trial.growth};
-  out.foreseen = out.distortion = offset_ + forecast->end.outcome.energy;
-  out.stretch = out.foreseen_stretch = forecast->stretch;
-  out.forecast = std::move(forecast);
+  foresee(std::move(*forecast), out);
   return out;
 }
 

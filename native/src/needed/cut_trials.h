@@ -131,6 +131,7 @@ class CutTrials {
   void preview_along_edges(const std::vector<ChartCuts>& charts, const CutOutlines* outlines, const std::vector<CutPlace>& places,
                            std::vector<Preview>& out) const;
   bool leaves_slivers(const std::vector<ChartCuts>& charts) const;
+  void foresee(Forecast forecast, Trial& out) const;
   std::vector<std::vector<Loss>> losses(const CutAtlas& atlas, const Solution& solution) const;
   std::vector<std::vector<Loss>> losses(const CutAtlas& atlas, const Forecast& forecast) const;
   void keep_words(const Journal::Mark& since, SqueezedTrial& out) const;
