@@ -14,6 +14,10 @@
 #include <system_error>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "atlas_refine/refine.h"
 #include "chart_words.h"
 #include "collection.h"
@@ -39,6 +43,16 @@ enum Exit {
   exit_bad_input = 3,
   exit_bound_not_reached = 4
 };
+
+/// Memory that is given back to the system comes back page by page, emptied: 3 to 6 % of the time on two threads.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kMiB = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * kMiB);  // the most there can be; and none of these two changes by itself from here on
+  mallopt(M_TRIM_THRESHOLD, 256 * kMiB);
+  mallopt(M_TOP_PAD, 16 * kMiB);
+#endif
+}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -297,6 +311,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace atlas_refine::cli;
+  keep_freed_memory();
   install_interrupt_handler();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow any more is then an error like a full disk
   try {

@@ -9,6 +9,7 @@
 
 #include "dense_matrix.h"
 #include "support/rng.h"
+#include "support/thread_pool.h"
 
 namespace atlas_refine {
 namespace {
@@ -160,6 +161,8 @@ TEST(BlockCholesky, AnyNumberOfThreadsGivesTheSameBits) {
   set_random_values(rng, matrix);
   std::vector<std::vector<Vec2>> solutions;
   for (const int threads : {1, 2, 3, 8}) {
+    const ThreadPoolScope pool(threads);
+    matrix.analyse_pattern();
     ASSERT_TRUE(matrix.factor(threads));
     matrix.solve(solutions.emplace_back(random_side(side * side, 7)));
     EXPECT_EQ(solutions.back(), solutions.front()) << threads << " threads";

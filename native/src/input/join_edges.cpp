@@ -152,6 +152,8 @@ DisjointSets joined_faces(const Atlas& atlas, const EdgeJoins& joins) {
 
 void orient_faces(const Atlas& atlas, EdgeJoins& joins) {
   joins.turned_faces.assign(atlas.face_count(), false);
+  // Where all faces are wound as their neighbours, as nearly everywhere, there is nothing to turn and nothing that contradicts.
+  if (std::find(joins.alike.begin(), joins.alike.end(), 1) == joins.alike.end()) return;
   Winding(atlas, joins).run();
 }
 

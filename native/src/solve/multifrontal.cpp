@@ -2,7 +2,9 @@
 #include "solve/multifrontal.h"
 
 #include <algorithm>
+#include <numeric>
 
+#include "support/gathered.h"
 #include "support/parallel.h"
 
 namespace atlas_refine {
@@ -62,23 +64,27 @@ void Multifrontal::analyse(const Adjacency& graph, const std::vector<int>& slots
 }
 
 void Multifrontal::find_entries(const Adjacency& graph, const std::vector<int>& slots) {
-  std::vector<int> row_of(graph.size());  // in the front, by position
-  entries_.clear();
-  entry_start_.assign(1, 0);
-  for (int s = 0; s < tree_.count(); ++s) {
-    const int begin = tree_.first[s], end = tree_.first[s + 1];
-    for (int k = begin; k < end; ++k) row_of[k] = k - begin;
-    for (int e = tree_.row_start[s]; e < tree_.row_start[s + 1]; ++e)
-      row_of[tree_.rows[e]] = end - begin + e - tree_.row_start[s];
-    for (int k = begin; k < end; ++k) {
-      const int column = tree_.order[k];
-      for (int e = graph.start[column]; e < graph.start[column + 1]; ++e) {
-        const int row = tree_.position[graph.nodes[e]];
-        if (row > k) entries_.push_back({slots[e], 2 * row_of[row] + 2 * (k - begin) * rows(s)});
+  constexpr int kGrain = 1024;  // supernodes
+  entry_start_.assign(tree_.count() + 1, 0);
+  entries_ = gathered<Entry>(tree_.count(), kGrain, [&](int first, int last, std::vector<Entry>& out) {
+    std::vector<int> row_of(graph.size());  // in the front, by position
+    for (int s = first; s < last; ++s) {
+      const std::size_t before = out.size();
+      const int begin = tree_.first[s], end = tree_.first[s + 1];
+      for (int k = begin; k < end; ++k) row_of[k] = k - begin;
+      for (int e = tree_.row_start[s]; e < tree_.row_start[s + 1]; ++e)
+        row_of[tree_.rows[e]] = end - begin + e - tree_.row_start[s];
+      for (int k = begin; k < end; ++k) {
+        const int column = tree_.order[k];
+        for (int e = graph.start[column]; e < graph.start[column + 1]; ++e) {
+          const int row = tree_.position[graph.nodes[e]];
+          if (row > k) out.push_back({slots[e], 2 * row_of[row] + 2 * (k - begin) * rows(s)});
+        }
       }
+      entry_start_[s + 1] = static_cast<int>(out.size() - before);
     }
-    entry_start_.push_back(static_cast<int>(entries_.size()));
-  }
+  });
+  std::partial_sum(entry_start_.begin(), entry_start_.end(), entry_start_.begin());
 }
 
 void Multifrontal::measure_stacks() {

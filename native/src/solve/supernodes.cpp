@@ -6,6 +6,9 @@
 #include <numeric>
 #include <utility>
 
+#include "solve/front_tasks.h"
+#include "support/thread_pool.h"
+
 namespace atlas_refine {
 namespace {
 
@@ -143,20 +146,28 @@ std::vector<int> join_columns(const Tree& tree, const std::vector<int>& counts) 
   return top;
 }
 
-/// Groups in postorder become supernodes, their columns in ascending order.
-void number_groups(const Tree& tree, const std::vector<int>& top, const std::vector<int>& order, Supernodes& out) {
+/// Groups in postorder become supernodes, their columns in ascending order. Below a group lies what is below its top column.
+void number_groups(const Tree& tree, const std::vector<int>& top, const std::vector<int>& counts, const std::vector<int>& order,
+                   Supernodes& out) {
   const int n = static_cast<int>(top.size());
   std::vector<int> group_of(n, -1), parent;  // by top column
   int count = 0;
   for (int k = 0; k < n; ++k) {
     if (top[k] == k) group_of[k] = count++;
   }
+  std::vector<int> below;
   for (int k = 0; k < n; ++k) {
-    if (top[k] == k) parent.push_back(tree.parent[k] < 0 ? -1 : group_of[top[tree.parent[k]]]);
+    if (top[k] != k) continue;
+    parent.push_back(tree.parent[k] < 0 ? -1 : group_of[top[tree.parent[k]]]);
+    below.push_back(counts[k]);
   }
   const std::vector<int> sequence = postorder(tree_of(parent)), rank = inverse(sequence);
   out.parent.resize(count);
-  for (int s = 0; s < count; ++s) out.parent[s] = parent[sequence[s]] < 0 ? -1 : rank[parent[sequence[s]]];
+  out.row_start.assign(1, 0);
+  for (int s = 0; s < count; ++s) {
+    out.parent[s] = parent[sequence[s]] < 0 ? -1 : rank[parent[sequence[s]]];
+    out.row_start.push_back(out.row_start.back() + below[sequence[s]]);
+  }
   out.first.assign(count + 1, 0);
   for (int k = 0; k < n; ++k) ++out.first[rank[group_of[top[k]]] + 1];
   for (int s = 0; s < count; ++s) out.first[s + 1] += out.first[s];
@@ -179,44 +190,53 @@ void list_children(Supernodes& out) {
   }
 }
 
-/// Rows of each supernode: those of its columns and of its children.
-void find_rows(const Adjacency& graph, Supernodes& out) {
-  std::vector<int> seen(graph.size(), -1);
-  out.row_start.assign(1, 0);
-  out.rows.clear();
-  for (int s = 0; s < out.count(); ++s) {
-    const auto add = [&](int row) {
-      if (row < out.first[s + 1] || seen[row] == s) return;
-      seen[row] = s;
-      out.rows.push_back(row);
-    };
-    for (int k = out.first[s]; k < out.first[s + 1]; ++k) {
-      for (int e = graph.start[out.order[k]]; e < graph.start[out.order[k] + 1]; ++e) add(out.position[graph.nodes[e]]);
+/// Rows of a supernode: those of its columns and of its children. `seen`: by position, what it was last seen for.
+void find_rows(const Adjacency& graph, int s, std::vector<int>& seen, Supernodes& out) {
+  const auto begin = out.rows.begin() + out.row_start[s];
+  auto end = begin;
+  const auto add = [&](int row) {
+    if (row < out.first[s + 1] || seen[row] == s) return;
+    seen[row] = s;
+    *end++ = row;
+  };
+  for (int k = out.first[s]; k < out.first[s + 1]; ++k) {
+    for (int e = graph.start[out.order[k]]; e < graph.start[out.order[k] + 1]; ++e) add(out.position[graph.nodes[e]]);
+  }
+  for (int c = out.child_start[s]; c < out.child_start[s + 1]; ++c) {
+    const int child = out.children[c];
+    for (int e = out.row_start[child]; e < out.row_start[child + 1]; ++e) add(out.rows[e]);
+  }
+  std::sort(begin, end);
+}
+
+/// Where the rows of a child of supernode p lie in p's front.
+void find_rows_in_parent(int child, int p, Supernodes& out) {
+  int at = out.row_start[p];
+  for (int e = out.row_start[child]; e < out.row_start[child + 1]; ++e) {
+    if (out.rows[e] < out.first[p + 1]) {
+      out.row_in_parent[e] = out.rows[e] - out.first[p];
+      continue;
     }
-    for (int c = out.child_start[s]; c < out.child_start[s + 1]; ++c) {
-      const int child = out.children[c];
-      for (int e = out.row_start[child]; e < out.row_start[child + 1]; ++e) add(out.rows[e]);
-    }
-    std::sort(out.rows.begin() + out.row_start[s], out.rows.end());
-    out.row_start.push_back(static_cast<int>(out.rows.size()));
+    while (out.rows[at] != out.rows[e]) ++at;
+    out.row_in_parent[e] = out.pivots(p) + at - out.row_start[p];
   }
 }
 
-void find_rows_in_parents(Supernodes& out) {
+/// Subtrees side by side.
+void find_all_rows(const Adjacency& graph, Supernodes& out) {
+  out.rows.resize(out.row_start.back());
   out.row_in_parent.resize(out.rows.size());
-  for (int s = 0; s < out.count(); ++s) {
-    const int p = out.parent[s];
-    if (p < 0) continue;
-    int at = out.row_start[p];
-    for (int e = out.row_start[s]; e < out.row_start[s + 1]; ++e) {
-      if (out.rows[e] < out.first[p + 1]) {
-        out.row_in_parent[e] = out.rows[e] - out.first[p];
-        continue;
-      }
-      while (out.rows[at] != out.rows[e]) ++at;
-      out.row_in_parent[e] = out.pivots(p) + at - out.row_start[p];
+  const int threads = present_threads();
+  const std::vector<FrontTask> tasks = divide_fronts(out, threads);
+  std::vector<std::vector<int>> seen(threads);
+  run_tasks_up(tasks, tasks.size() > 1 ? threads : 1, [&](int task, int worker) {
+    if (seen[worker].empty()) seen[worker].assign(graph.size(), -1);
+    for (int s = tasks[task].begin; s < tasks[task].end; ++s) {
+      find_rows(graph, s, seen[worker], out);
+      for (int c = out.child_start[s]; c < out.child_start[s + 1]; ++c) find_rows_in_parent(out.children[c], s, out);
     }
-  }
+    return true;
+  });
 }
 
 }  // namespace
@@ -233,12 +253,11 @@ Supernodes find_supernodes(const Adjacency& graph) {
   std::vector<int> renumbered(parent.size());
   for (std::size_t k = 0; k < parent.size(); ++k) renumbered[k] = parent[sequence[k]] < 0 ? -1 : rank[parent[sequence[k]]];
   const Tree tree = tree_of(std::move(renumbered));
-  const std::vector<int> top = join_columns(tree, column_counts(graph, sequence, rank, tree));
+  const std::vector<int> counts = column_counts(graph, sequence, rank, tree);
   Supernodes out;
-  number_groups(tree, top, sequence, out);
+  number_groups(tree, join_columns(tree, counts), counts, sequence, out);
   list_children(out);
-  find_rows(graph, out);
-  find_rows_in_parents(out);
+  find_all_rows(graph, out);
   return out;
 }
 
