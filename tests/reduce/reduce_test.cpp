@@ -296,5 +296,21 @@ TEST(Reduce, FreeRigidChartsComeTogether) {
   checked(problem, result);
 }
 
+// A gap that is a part of the box shrinks with it: a hundred charts that are pressed by it would take the box to nothing.
+TEST(Reduce, ABoxThatWouldSpareAllTheGapDoesNotCollapse) {
+  const std::vector<Chart> charts = charts_of(shapes::squares(144, 0.2));
+  const double gap = 0.99 * gap_between_charts(charts) / box_sides(charts).maxCoeff();
+  const ReduceProblem problem{.charts = charts, .gap = {gap, Gap::Unit::LongSide}, .box_aspect = 1, .pe_target = 0.5};
+  std::vector<ReduceProgress> steps;
+  const ReduceResult result = reduce_distortion(problem, [&](const ReduceProgress& progress) {
+    steps.push_back(progress);
+    return true;
+  });
+  EXPECT_TRUE(result.reached);
+  checked(problem, result);
+  ASSERT_GT(steps.size(), 1U);
+  EXPECT_GT(steps[1].fraction, 0.1);
+}
+
 }  // namespace
 }  // namespace atlas_refine

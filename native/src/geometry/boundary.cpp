@@ -86,14 +86,6 @@ double boundary_on_surface(const std::vector<Chart>& charts) {
   return sum;
 }
 
-Closest closest_on_segment(const Vec2& point, const Vec2& start, const Vec2& end) {
-  const Vec2 edge = end - start;
-  const double length2 = edge.squaredNorm();
-  const double along = length2 > 0 ? std::clamp(edge.dot(point - start) / length2, 0.0, 1.0) : 0.0;
-  const Vec2 offset = along == 1 ? Vec2(point - end) : Vec2(point - start - along * edge);
-  return {along, offset, offset.norm()};
-}
-
 bool faces_outside(const Boundary& boundary, const std::vector<Vec2>& positions, const PointEdge& pair, const Closest& closest) {
   if (!points_outside(boundary, positions, pair.point, -closest.offset)) return false;
   if (closest.along == 0) return points_outside(boundary, positions, pair.edge, closest.offset);

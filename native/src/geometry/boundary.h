@@ -1,6 +1,7 @@
 // The boundaries of all charts of an atlas as one flat structure.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
@@ -48,7 +49,13 @@ struct Closest {
   Vec2 offset;      ///< from the closest point of the segment to the point
   double distance;  ///< |offset|
 };
-Closest closest_on_segment(const Vec2& point, const Vec2& start, const Vec2& end);
+inline Closest closest_on_segment(const Vec2& point, const Vec2& start, const Vec2& end) {
+  const Vec2 edge = end - start;
+  const double length2 = edge.squaredNorm();
+  const double along = length2 > 0 ? std::clamp(edge.dot(point - start) / length2, 0.0, 1.0) : 0.0;
+  const Vec2 offset = along == 1 ? Vec2(point - end) : Vec2(point - start - along * edge);
+  return {along, offset, offset.norm()};
+}
 
 /// True where the shortest way between point and edge leaves both into the outside of the chart. Pairs that face each other
 /// through the chart's interior are no contacts.

@@ -22,6 +22,7 @@ constexpr int kStallIterations = 12;
 constexpr double kBackOff = 0.8;      // in a box: the floor of a gap is mostly overstepped by little
 constexpr double kFarBelow = 3;       // log PE below the target where charts that climb too slowly are given up,
 constexpr int kTrialIterations = 60;  // after so many iterations
+constexpr double kMostGain = 0.1;     // of log PE in one iteration, with or without a price
 constexpr double kOnTarget = 1e-4;    // log PE about the target where the bound counts as held,
 constexpr double kTelling = 1;        // damping up to which a rise of the objective is the price of PE
 constexpr double kCrushed = 0.5;      // a rise under heavy damping that is not waited out
@@ -131,6 +132,12 @@ double price_of_gain(const Task& task, const Iterate& at, const Schedule& schedu
   return std::max(price, std::min(dearest_price(schedule, at.energy), (-fall - own_gain) / gain_per_price));
 }
 
+void shorten(Step& step, double part) {
+  for (Vec2& d : step.direction) d *= part;
+  step.slope *= part;
+  step.predicted_gain *= part;
+}
+
 /// Solves for the step and its price; nothing where no damping makes the matrix positive definite.
 std::optional<Step> compute_step(const Task& task, const Iterate& at, Schedule& schedule, TriangleSlots& slots,
                                  BlockSystem& system) {
@@ -153,6 +160,8 @@ std::optional<Step> compute_step(const Task& task, const Iterate& at, Schedule& 
     step.direction = newton_direction(system);
   }
   step.slope += dot(system.gradient, step.direction);
+  // A box that nothing touches would collapse: what charts sweep then takes minutes to search, and none of it is free.
+  if (step.predicted_gain > kMostGain) shorten(step, kMostGain / step.predicted_gain);
   spread(task.model, step.direction);
   return step;
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "geometry/boundary.h"
 
@@ -15,6 +17,12 @@ struct BarrierValue {
   double curvature = 0;
 };
 BarrierValue log_barrier(double x);
+/// The value alone.
+inline double log_barrier_value(double x) {
+  if (x >= 1) return 0;
+  if (!(x > 0)) return std::numeric_limits<double>::infinity();
+  return -(x - 1) * (x - 1) * std::log(x);
+}
 
 /// One active point-edge contact: its value and derivatives for the point, the edge's start and its end.
 struct ContactDerivatives {
