@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "coarsen/prolong.h"
+#include "support/parallel.h"
 #include "support/profile.h"
+#include "support/thread_pool.h"
 
 namespace atlas_refine {
 namespace {
@@ -45,17 +47,21 @@ std::optional<CoarseAtlas> coarsen(const std::vector<Chart>& charts, const Objec
   const int vertices = bending_vertices(charts, freedom);
   if (vertices < kSmall) return std::nullopt;
   const double spacing = spacing_inside(surface_of_bending(charts, freedom));
-  CoarseAtlas out{.charts = {}, .objective = {.unit = objective.unit}};
+  const int count = static_cast<int>(charts.size());
+  CoarseAtlas out{.charts = std::vector<std::optional<CoarseChart>>(count), .objective = {.unit = objective.unit}};
+  parallel_ranges(count, present_threads(), 1, [&](int begin, int end) {
+    for (int c = begin; c < end; ++c) {
+      if (!bends(freedom, c)) continue;
+      out.charts[c] = coarsen(charts[c], of_only_chart ? *of_only_chart : sample_of_coarse(charts[c], spacing));
+    }
+  });
   int kept = vertices;
-  for (std::size_t c = 0; c < charts.size(); ++c) {
-    auto& coarse = out.charts.emplace_back();
-    if (!bends(freedom, c)) continue;
-    coarse = coarsen(charts[c], of_only_chart ? *of_only_chart : sample_of_coarse(charts[c], spacing));
-    if (coarse) kept -= charts[c].vertex_count() - coarse->mesh.vertex_count();
+  for (int c = 0; c < count; ++c) {
+    if (out.charts[c]) kept -= charts[c].vertex_count() - out.charts[c]->mesh.vertex_count();
   }
   if (kept > kMostKept * vertices) return std::nullopt;
   std::size_t first = 0;
-  for (std::size_t c = 0; c < charts.size(); first += element_count(charts[c]), ++c) {
+  for (int c = 0; c < count; first += element_count(charts[c]), ++c) {
     const ChartObjective fine = slice(objective, first, element_count(charts[c]));
     const ChartObjective own = out.charts[c] ? coarse_objective(charts[c], *out.charts[c], fine) : fine;
     out.objective.inverse_edges.insert(out.objective.inverse_edges.end(), own.inverse_edges.begin(), own.inverse_edges.end());

@@ -2,6 +2,8 @@
 #include "repair/repair_charts.h"
 
 #include <algorithm>
+#include <atomic>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
@@ -17,6 +19,7 @@
 #include "repair/embed.h"
 #include "repair/part_touching.h"
 #include "repair/untangle_chart.h"
+#include "support/parallel.h"
 
 namespace atlas_refine {
 namespace {
@@ -227,10 +230,21 @@ void repair_chart(const Chart& chart, int index, const RepairOptions& options, M
 }  // namespace
 
 RepairedCharts repair_charts(const std::vector<Chart>& charts, const RepairOptions& options, Monitor& monitor) {
+  const int count = static_cast<int>(charts.size());
+  std::vector<RepairedCharts> of_chart(count);
+  std::atomic<int> begun = 0;
+  parallel_ranges(count, options.threads, 1, [&](int begin, int end) {
+    for (int c = begin; c < end; ++c) {
+      monitor.report(static_cast<double>(begun++) / count);
+      repair_chart(charts[c], c, options, monitor, of_chart[c]);
+    }
+  });
   RepairedCharts out;
-  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
-    monitor.report(static_cast<double>(c) / static_cast<double>(charts.size()));
-    repair_chart(charts[c], c, options, monitor, out);
+  for (RepairedCharts& own : of_chart) {
+    std::move(own.atlas.pieces.begin(), own.atlas.pieces.end(), std::back_inserter(out.atlas.pieces));
+    std::move(own.atlas.seams.begin(), own.atlas.seams.end(), std::back_inserter(out.atlas.seams));
+    std::move(own.repairs.begin(), own.repairs.end(), std::back_inserter(out.repairs));
+    std::move(own.unmended.begin(), own.unmended.end(), std::back_inserter(out.unmended));
   }
   return out;
 }
