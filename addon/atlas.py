@@ -169,6 +169,8 @@ class Atlas:
         densities = list(self._densities())
         in_texture = self.request.arguments["in_texture"]
         for (name, arrays, triangles, aspect), density in zip(self.request.boxes(), densities, strict=True):
+            if len(arrays[1]) == 1:  # all its faces were left out
+                continue
             measures = engine.measure(*arrays, box_aspect=aspect, in_texture=in_texture, triangles=triangles)
             title = ", ".join(filter(None, (self.title, name)))
             yield self._shown(prints, title, densities=(("", density[1]),), measures=measures)

@@ -158,6 +158,7 @@ class Operator(unittest.TestCase):
         after = get_uvs(obj.data.uv_layers.active)
         self.assertEqual(after[12:16].tobytes(), uvs[12:16].tobytes())
         self.assertNotEqual(after[16:].tobytes(), uvs[16:].tobytes())
+        self.assertEqual(bpy.ops.uv.atlas_refine_measure(), {"FINISHED"})
         uvs[:] = np.nan
         set_uvs(obj.data.uv_layers.active, uvs)
         self.assert_refused(obj, ["no face has UVs: unwrap the mesh"])

@@ -156,6 +156,22 @@ class Rectangles(unittest.TestCase):
         print(f"    {left} of {quads} quads are as they were")
         self.assertGreater(left, quads / 2)
 
+    def test_edges_without_length_may_be_cut(self):
+        for add, every in ((bpy.ops.mesh.primitive_monkey_add, 5), (bpy.ops.mesh.primitive_torus_add, 14)):
+            add()
+            obj = bpy.context.object
+            bpy.ops.object.mode_set(mode="EDIT")
+            bpy.ops.mesh.select_all(action="SELECT")
+            bpy.ops.uv.smart_project()
+            bpy.ops.object.mode_set(mode="OBJECT")
+            for polygon in list(obj.data.polygons)[::every]:
+                a, b = polygon.vertices[:2]
+                obj.data.vertices[b].co = obj.data.vertices[a].co
+            faces = len(obj.data.polygons)
+            self.assertEqual(bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut="SPLIT", density="EQUAL"), {"FINISHED"})
+            self.assertGreater(len(obj.data.polygons), faces)
+            self.assertFalse(obj.data.validate())
+
     def test_a_map_that_holds_the_bound_stays(self):
         obj = add_suzanne()
         bpy.ops.uv.atlas_refine(seams="RECTANGLES", cut="SPLIT", density="EQUAL")

@@ -4,6 +4,7 @@
 import itertools
 
 import bmesh
+import numpy as np
 
 from . import versions
 
@@ -60,7 +61,7 @@ def _make_pieces(mesh, plan, verts, faces, changed):
     pieces, corners = {}, plan.atlas.corner_vertices
     for number, (source, first, end) in enumerate(changed, 1):
         face, spans = faces[source], [plan.corners_of(k) for k in range(first, end)]
-        if len(spans) > 1:
+        if len(spans) > 1 or _gains_on_a_point(plan.atlas.positions[corners[slice(*spans[0])]], len(face.verts)):
             made = [_make_piece(mesh, [verts[vertex] for vertex in corners[a:b].tolist()], face) for a, b in spans]
         elif len(face.verts) == spans[0][1] - spans[0][0]:
             made = [face]
@@ -70,6 +71,12 @@ def _make_pieces(mesh, plan, verts, faces, changed):
         if number % ELEMENTS_OF_A_STEP == 0:
             yield
     return pieces
+
+
+def _gains_on_a_point(cycle, count):
+    """A face of so many corners comes to have those at the positions `cycle`: new ones lie on edges without length, which are not
+    split."""
+    return count < len(cycle) <= count + int((cycle == np.roll(cycle, 1, axis=0)).all(axis=1).sum())
 
 
 def _make_piece(mesh, cycle, face):

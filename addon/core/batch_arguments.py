@@ -138,7 +138,7 @@ def _expand(patterns):
         if os.path.exists(pattern) or not glob.has_magic(pattern):
             found.append(pattern)
             continue
-        matches = glob.glob(pattern, recursive=True)
+        matches = [path for path in glob.glob(pattern, recursive=True) if not os.path.isdir(path)]
         if not matches:
             raise UsageError(f"no file fits {pattern}")
         found += matches

@@ -209,7 +209,8 @@ def following_corners(face_offsets):
 
 
 def _edge_splits(source, corners, weights):
-    """The new vertices on edges of input faces, sorted by edge and along each; those inside of faces are left out."""
+    """The new vertices on edges of input faces, sorted by edge and along each; those inside of faces are left out, and those on an
+    edge without length: the engine takes its two sides for two edges and divides each by itself."""
     following = following_corners(source.face_offsets)
     edges = {}
     for new, (row, three) in enumerate(zip(corners.tolist(), weights.tolist(), strict=True)):
@@ -220,7 +221,8 @@ def _edge_splits(source, corners, weights):
             start, end = int(source.corner_vertices[a]), int(source.corner_vertices[b])
             fraction = weight_b if start < end else 1 - weight_b
             edges.setdefault((min(start, end), max(start, end)), []).append((fraction, len(source.positions) + new))
-    return [_edge_split(ends, sorted(vertices)) for ends, vertices in sorted(edges.items())]
+    with_length = [ends for ends in sorted(edges) if not np.array_equal(*source.positions[list(ends)])]
+    return [_edge_split(ends, sorted(edges[ends])) for ends in with_length]
 
 
 def _edge_split(ends, vertices):

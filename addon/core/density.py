@@ -50,14 +50,14 @@ class Density:
 
 
 def surface_areas(positions, face_offsets, corner_vertices):
-    """(F,) of the faces, as flat as they can be."""
+    """(F,) of the faces, as flat as they can be; 0 where positions are no numbers."""
     x, y, z = _twice_areas(positions, face_offsets, corner_vertices)
     return np.sqrt(x**2 + y**2 + z**2) / 2
 
 
 def uv_areas(face_offsets, corner_uvs):
     """(F,) of the faces, also of those turned over; 0 where UVs are no numbers."""
-    return np.abs(np.nan_to_num(_twice_areas(corner_uvs, face_offsets)[0])) / 2
+    return np.abs(_twice_areas(corner_uvs, face_offsets)[0]) / 2
 
 
 def pixels_per_metre(area_in_uv, size, area, metres):
@@ -87,9 +87,11 @@ def _short(value):
     return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
 
 
+@np.errstate(invalid="ignore")
 def _twice_areas(points, face_offsets, corner_points=None):
-    """Of (n, 2) or (n, 3) points: (F,) of the faces in the plane, or in each of three, negative where they are turned over. As fans of
-    triangles, a coordinate at a time: NumPy's cross() and sums over each face take several times as long."""
+    """Of (n, 2) or (n, 3) points: (F,) of the faces in the plane, or in each of three, negative where they are turned over, 0 where
+    they have points that are no numbers. As fans of triangles, a coordinate at a time: NumPy's cross() and sums over each face take
+    several times as long."""
     in_fan = np.maximum(np.diff(face_offsets) - 2, 0)
     faces = np.repeat(np.arange(len(in_fan)), in_fan)
     third = np.arange(len(faces)) + np.repeat(face_offsets[:-1] + 2 - (np.cumsum(in_fan) - in_fan), in_fan)
@@ -98,4 +100,5 @@ def _twice_areas(points, face_offsets, corner_points=None):
     columns = [np.ascontiguousarray(column, dtype=np.float64) for column in points.T]
     rays = [(column[second] - column[apex], column[third] - column[apex]) for column in columns]
     pairs = list(zip(rays, rays[1:] + rays[:1], strict=True))[: 3 if len(rays) == 3 else 1]
-    return [np.bincount(faces, weights=a[0] * b[1] - a[1] * b[0], minlength=len(in_fan)) for a, b in pairs]
+    sums = [np.bincount(faces, weights=a[0] * b[1] - a[1] * b[0], minlength=len(in_fan)) for a, b in pairs]
+    return [np.nan_to_num(of_faces, posinf=0, neginf=0) for of_faces in sums]

@@ -66,9 +66,10 @@ class Joined:
         out, right = [], 0.0
         for part in self.parts:
             positions = part.atlas.positions.astype(np.float64) * part.scale
-            if len(positions):
-                positions[:, 0] += right - positions[:, 0].min()
-                right = positions[:, 0].max() + 1.0
+            places = positions[np.isfinite(positions[:, 0]), 0]
+            if len(places):
+                positions[:, 0] += right - places.min()
+                right += np.ptp(places) + 1.0
             out.append(positions)
         return np.concatenate(out)
 

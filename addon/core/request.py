@@ -42,15 +42,17 @@ class Request:
 
     def boxes(self):
         """(name, the four array arguments, the triangles of its larger faces, the aspect) of each box by itself, moved to the first
-        tile."""
+        tile; without the faces that a refinement leaves out because they have corners that are no numbers."""
         positions, offsets, vertices, uvs = self.joined.arrays()
+        finite = _finite_faces(positions, offsets, vertices, uvs)
         triangles = self.arguments["triangles"]
-        if "groups" not in self.arguments:
+        if "groups" not in self.arguments and finite.all():
             yield "", (positions, offsets, vertices, uvs), triangles, self.box_aspects[0]
             return
-        named = zip(self.box_names, self.arguments["group_origins"], self.box_aspects, strict=True)
-        for group, (name, origin, aspect) in enumerate(named):
-            faces = np.flatnonzero(self._groups == group)
+        positions = np.where(np.isfinite(positions), positions, 0)
+        origins = self.arguments.get("group_origins", np.zeros((1, 2)))
+        for group, (name, origin, aspect) in enumerate(zip(self.box_names, origins, self.box_aspects, strict=True)):
+            faces = np.flatnonzero((self._groups == group) & finite)
             corners = corners_of(offsets, faces)
             own_offsets = np.concatenate([[0], np.cumsum(np.diff(offsets)[faces])])
             arrays = positions, own_offsets, vertices[corners], uvs[corners] - origin
@@ -103,6 +105,11 @@ class Request:
     @property
     def leaves_faces_out(self):
         return not all(part.taken.all() for part in self.joined.parts)
+
+
+def _finite_faces(positions, offsets, vertices, uvs):
+    finite = np.isfinite(uvs).all(axis=1) & np.isfinite(positions).all(axis=1)[vertices]
+    return np.logical_and.reduceat(finite, offsets[:-1])
 
 
 def prepare(engine, parts, options, canvases=ONE_CANVAS, metres=1.0, moves=True):

@@ -31,7 +31,7 @@ def plain(message):
     for said, word in _WORDS.items():
         message = message.replace(said, word)
     message = _GAP.sub("margin", message)
-    message = _NOT_CONVEX.sub(r"\1: a program that divides it otherwise than Blender may see it flipped", message)
+    message = _NOT_CONVEX.sub(r"\1: to a program that divides faces otherwise than Blender they may be flipped", message)
     return _CHART.sub(lambda found: f"face {found.group(1)}" if found.group(1) else "1 chart", message)
 
 

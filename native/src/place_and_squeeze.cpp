@@ -13,6 +13,7 @@
 #include "placing.h"
 #include "reduce/goal.h"
 #include "reduce/relax_apart.h"
+#include "reduce/specks.h"
 #include "reduce/squeeze.h"
 #include "report/locked.h"
 #include "report/note_repairs.h"
@@ -73,7 +74,7 @@ SqueezeOptions squeeze_options(const Refinement& run, const CutAtlas& atlas, con
           .limits = limits,
           .wanted_areas = kept_areas(run.input.set.charts, atlas, run.options, freedom),
           .threads = run.threads,
-          .freedom = freedom,
+          .freedom = with_specks_held(atlas, freedom, gaps.front(), run.options.pe_bound, run.options.box_aspect),
           .stored = run.options.stored};
 }
 

@@ -45,6 +45,12 @@ def test_patterns_reach_each_file_once_and_no_results(files):
     assert arguments.items[0].record == files / "out/a.atlas_refine.json"
 
 
+def test_patterns_reach_no_folders(files):
+    assert sources(read(files / "**/*", "-o", files / "out")) == ["a.blend", "b.blend", "c.blend", "e.txt"]
+    with pytest.raises(UsageError, match="no file fits"):
+        read(files / "dee?", "-o", files / "out")
+
+
 def test_in_place(files):
     (item,) = read(files / "a.blend", "--in-place").items
     assert item.source == item.output

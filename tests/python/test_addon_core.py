@@ -181,7 +181,7 @@ def test_a_bound_that_is_held_reads_so_and_one_that_is_missed_does_not():
         ("charts of several groups were parted along 2 edges", "charts of several materials were parted along 2 edges"),
         (
             "1 face is not convex in the UV map, valid only where divided as here; 0 of them would be flipped as a fan",
-            "1 face is not convex in the UV map: a program that divides it otherwise than Blender may see it flipped",
+            "1 face is not convex in the UV map: to a program that divides faces otherwise than Blender they may be flipped",
         ),
         ("object 'Cube': face 7 of chart 0 is flipped", "face 7 is flipped"),
         ("the boundaries of charts 0 and 12 touch or cross near (0, 1)", "the boundaries of 2 charts touch or cross near (0, 1)"),

@@ -51,6 +51,18 @@ def test_several_points_of_one_edge_are_sorted_from_its_smaller_end():
         plan_cut(as_blender_stores(arrays), cut, uvs)
 
 
+def test_an_edge_without_length_is_not_split():
+    """Its sides are two edges to the engine, which may divide both at the same place."""
+    arrays = shapes.join(shapes.grid(2, 2))
+    cut, uvs = Cutter(*arrays).cut(0, 0.75, faces=[0, 1]).cut(0, 0.25, faces=[0, 1]).result()
+    source = as_blender_stores(arrays)
+    source.positions[1] = source.positions[0]
+    on_edge = (source.corner_vertices[cut.corner_sources[:, :2]] < 2).all(axis=1) & (cut.corner_vertices >= len(arrays[0]))
+    cut.corner_weights[on_edge] = [0.5, 0.5, 0.0]
+    plan = plan_cut(source, cut, uvs)
+    assert [(s.start, s.end) for s in plan.edge_splits] == [(3, 4)]
+
+
 def test_corners_are_means_of_corners_of_their_own_face():
     source, cut, uvs = crossed()
     plan = plan_cut(source, cut, uvs)

@@ -20,8 +20,11 @@ def test_areas():
     assert surface_areas(positions, offsets, corners) == pytest.approx([1.0] * 10)
     assert uv_areas(offsets, uvs) == pytest.approx([1.0] * 6 + [4.0] * 4)
     assert uv_areas(offsets, -uvs[:, ::-1]) == pytest.approx([1.0] * 6 + [4.0] * 4)  # turned over
-    uvs[0] = np.nan
-    assert uv_areas(offsets, uvs).sum() == pytest.approx(21.0)
+    for no_number in (np.nan, np.inf):
+        uvs[:2] = no_number
+        assert uv_areas(offsets, uvs).sum() == pytest.approx(21.0)
+        positions[0] = no_number
+        assert surface_areas(positions, offsets, corners).sum() == pytest.approx(9.0)
 
 
 def test_pixels_per_metre():

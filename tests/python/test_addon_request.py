@@ -217,6 +217,28 @@ def test_what_only_looks_asks_for_nothing_that_may_move():
         prepare(atlas_refine, [part], FREE, moves=False)
 
 
+@pytest.mark.parametrize("tiles", ["ONE", "EACH"])
+def test_faces_without_numbers_are_not_measured(tiles):
+    positions, offsets, corners, uvs = (array.copy() for array in shapes.loose())
+    uvs[:2] = np.nan, np.inf
+    positions[corners[8]] = np.inf
+    part = make_part((positions, offsets, corners, uvs))
+    boxes = list(prepare(atlas_refine, [part], Options(tiles=tiles), moves=False).boxes())
+    around = (corners.reshape(-1, 4) == corners[8]).any(axis=1)
+    assert sum(len(own) - 1 for _, (_, own, _, _), _, _ in boxes) == 102 - 1 - around.sum()
+    for _, arrays, own, aspect in (box for box in boxes if len(box[1][1]) > 1):
+        atlas_refine.measure(*arrays, box_aspect=aspect, triangles=own)
+
+
+def test_a_vertex_without_place_keeps_no_other_object_from_its_own():
+    parts = [make_part(tuple(array.copy() for array in shapes.loose())) for _ in range(2)]
+    parts[0].atlas.positions[0, 0], parts[0].atlas.positions[1, 0] = np.nan, np.inf
+    positions = prepare(atlas_refine, parts, FREE).joined.arrays()[0]
+    first, second = positions[: len(positions) // 2], positions[len(positions) // 2 :]
+    assert np.isfinite(second).all()
+    assert second[:, 0].min() > np.nanmax(first[2:, 0])
+
+
 def test_boxes_have_the_triangles_of_their_faces():
     positions, offsets, corners, uvs = shapes.loose()
     triangles = np.concatenate([offsets[:-1, None] + [0, 1, 3], offsets[:-1, None] + [1, 2, 3]])
