@@ -31,6 +31,7 @@ class Done:
     limits: tuple  # largest distortion and stretch that were asked for; 0: none
     result: object = None
     measures: object = None
+    hidden: int = 0  # faces that were not measured
     densities: tuple = ()  # (name of the texture or tile, core.density.Density)
     notes: tuple = ()
     left: tuple = ()  # (object's name, faces) of charts that were left as they are
@@ -167,13 +168,15 @@ class Atlas:
         """What the panel shows of the meshes as they are: a Done for each texture or tile."""
         prints = self.prints()
         densities = list(self._densities())
+        hidden = sum(int(np.sum(part.hidden & ~part.taken)) for part in self.parts)
         in_texture = self.request.arguments["in_texture"]
         for (name, arrays, triangles, aspect), density in zip(self.request.boxes(), densities, strict=True):
             if len(arrays[1]) == 1:  # all its faces were left out
                 continue
             measures = engine.measure(*arrays, box_aspect=aspect, in_texture=in_texture, triangles=triangles)
             title = ", ".join(filter(None, (self.title, name)))
-            yield self._shown(prints, title, densities=(("", density[1]),), measures=measures)
+            yield self._shown(prints, title, densities=(("", density[1]),), measures=measures, hidden=hidden)
+            hidden = 0  # told once
 
     def _shown(self, prints, title, **found):
         request = self.request

@@ -141,7 +141,7 @@ class UV_OT_atlas_refine_measure(Runs, bpy.types.Operator):
         for name, text in run.problems:
             self.report_problem(name, text)
         for done in found:
-            self.report({"INFO"}, f"{done.title}: {measured(done.measures, done.is_free, done.reached_beyond)}")
+            self.report({"INFO"}, f"{done.title}: {measured(done.measures, done.is_free, done.reached_beyond, done.hidden)}")
         drawing.redraw_panels(bpy.context)
         return {"FINISHED"} if found else {"CANCELLED"}
 

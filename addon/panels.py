@@ -134,7 +134,7 @@ class _Result:
             box = self.layout.box().column(align=True)
             if done.result is None:
                 _tell(box, context, f"{done.title}: measured", icon="INFO")
-                _tell(box, context, measured(done.measures, done.is_free, done.reached_beyond))
+                _tell(box, context, measured(done.measures, done.is_free, done.reached_beyond, done.hidden))
                 _draw_density(box, context, done.densities)
             else:
                 self._draw_result(box, context, done)

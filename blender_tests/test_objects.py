@@ -672,6 +672,18 @@ class LastResult(unittest.TestCase):
         bpy.ops.mesh.select_all(action="DESELECT")
         self.assertIn("3 charts", messages(bpy.ops.uv.atlas_refine_measure))
 
+    def test_measure_leaves_out_what_a_refinement_leaves_out_and_tells_it(self):
+        """Charts that are hidden as a whole, but not those that are hidden in part."""
+        self.assertNotIn("left out", messages(bpy.ops.uv.atlas_refine_measure))
+        self.obj.data.polygons.foreach_set("hide", np.arange(102) < 49)
+        self.assertIn("48 hidden faces left out", messages(bpy.ops.uv.atlas_refine_measure))
+        measures = self.shown()[0].measures
+        bpy.ops.uv.atlas_refine()
+        before = self.shown()[0].result.before
+        self.assertEqual(measures.chart_count, before.chart_count)
+        self.assertAlmostEqual(measures.pe_fixed_aspect, before.pe_fixed_aspect)
+        self.assertAlmostEqual(measures.distortion, before.distortion)
+
     def test_measure_says_of_a_result_what_the_result_said(self):
         """Of faces that are far from flat: how they are divided makes the difference."""
         bpy.ops.mesh.primitive_monkey_add()

@@ -16,8 +16,10 @@ def headline(result, is_free=False, reached_beyond=False):
     return f"{use(result.before, is_free, reached_beyond)} -> {now}, {distortion(after)}, {', '.join(new_seams(result))}"
 
 
-def measured(measures, is_free=False, reaches_beyond=False):
-    return f"{use(measures, is_free, reaches_beyond)}, {distortion(measures)}, {counted(measures.chart_count, 'chart')}"
+def measured(measures, is_free=False, reaches_beyond=False, hidden=0):
+    """`hidden`: faces that are left out."""
+    text = f"{use(measures, is_free, reaches_beyond)}, {distortion(measures)}, {counted(measures.chart_count, 'chart')}"
+    return f"{text}, {counted(hidden, 'hidden face')} left out" if hidden else text
 
 
 def use(measures, is_free, reaches_beyond):

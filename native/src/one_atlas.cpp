@@ -199,10 +199,19 @@ std::string words_on_limits(const RefineOptions& options) {
   return distortion + (distortion.empty() || stretch.empty() ? "" : " and ") + stretch;
 }
 
+/// How far charts may not grow.
+std::string too_dense() { return "over " + number_text("%g", kMostDense) + " times the texel density of the others"; }
+
 /// Why a bound is not held where densities are kept; `charts`: those that would outgrow them.
 std::string words_on_outgrown(int charts) {
-  return "for more, " + std::to_string(charts) + (charts == 1 ? " chart" : " charts") + " would grow to over " +
-         number_text("%g", kMostDense) + " times the texel density of the others";
+  return "for more, " + std::to_string(charts) + (charts == 1 ? " chart" : " charts") + " would grow to " + too_dense();
+}
+
+/// Where it is held as these were only moved.
+std::string words_on_held(int charts) {
+  const std::string who =
+      charts == 1 ? "1 chart kept its shape: bent, it" : std::to_string(charts) + " charts kept their shapes: bent, they";
+  return who + " would have grown to " + too_dense() + ", which are stretched instead";
 }
 
 /// Why the result is not what was asked for; empty where it is.
@@ -273,7 +282,8 @@ void warn_of_density(const InputAtlas& input, const RefineOptions& options, cons
                              (down.empty() || up.empty() ? "" : " and ") + up + " times what it was");
 }
 
-void warn_of_early_end(const Solution& solution, Journal& journal) {
+void warn_of_end(const Solution& solution, Journal& journal) {
+  if (solution.held > 0) journal.warnings.push_back(words_on_held(solution.held));
   if (solution.outgrown > 0) journal.warnings.push_back("the bound was not reached; " + words_on_outgrown(solution.outgrown));
   const char* why = solution.ended == Ended::Stalled           ? "stalled"
                     : solution.ended == Ended::OutOfIterations ? "ran out of iterations"
@@ -358,7 +368,7 @@ Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const 
   }
   if (holds && result.atlas.after.distortion >= input.measures.distortion) return unchanged(input, options);
   journal.show(to_string(result.solution.intervention), result.atlas.stored);
-  warn_of_early_end(result.solution, journal);
+  warn_of_end(result.solution, journal);
   warn_of_density(input, options, result.atlas.charts, journal);
   warn_of_polygons(result.atlas, journal);
   warn_of_mirrored(result.atlas, journal);

@@ -96,7 +96,8 @@ void squeeze_into(const Refinement& run, const std::vector<PlacedCharts>& starts
   out.ended = ended_of(best.outcome.status);
   out.price = best.outcome.price;
   out.rough_energy = best.rough_energy;
-  out.end = best.outcome.end;
+  if (best.held == 0) out.end = best.outcome.end;  // else charts would grow from there
+  out.held = best.held;
   out.outgrown = static_cast<int>(best.outcome.outgrown.size());
   warn_of_gap(run, best.gap, best.gap_note);
 }

@@ -79,16 +79,13 @@ class Search {
 
   SqueezedTrial run() {
     found_.squeezed.push_back(without_cuts(trials_, wish_, step()));
-    if (options_.trade_off) {
+    if (options_.trade_off)
       look_for_all();
-    } else if (wish_.has_limit()) {
+    else if (wish_.has_limit())
       keep_limit();
-      if (may_need_rectangles()) look_at_rectangles();
-    } else {
+    else
       look_for_best();
-      const bool held = std::isfinite(found_.best(wish_).trial.distortion);  // the bound
-      if (!held && !trials_.finishing()) look_at_rectangles();
-    }
+    if (may_need_rectangles()) look_at_rectangles();
     SqueezedTrial& chosen = choose();
     chosen.solution.cuts = found_.report(chosen.trial);
     return std::move(chosen);
@@ -170,16 +167,21 @@ class Search {
     return wish_.above_limits(path.likely_distortion(set), path.likely_stretch(set));
   }
 
-  /// The limit is not kept, or by so many seams that rectangles may need fewer.
+  /// The limit is not kept, or by so many seams that rectangles may need fewer. Else the bound: without them it is not held, or
+  /// charts that are too stiff for it are stretched.
   bool may_need_rectangles() {
     const Trial& best = found_.best(wish_).trial;
-    return !trials_.finishing() && (!wish_.is_enough(best) || wish_.growth_weight * best.growth > kFewOfRectangles);
+    if (trials_.finishing()) return false;
+    if (wish_.has_limit() && !options_.trade_off)
+      return !wish_.is_enough(best) || wish_.growth_weight * best.growth > kFewOfRectangles;
+    return !std::isfinite(best.distortion) || found_.squeezed.front().solution.held > 0;
   }
 
   void look_at_rectangles() {
     auto rectangles = trials_.rectangles(rest_);
     if (!rectangles || rectangles->trial.growth > most_growth()) return;
-    if (!wish_.has_limit() || wish_.is_enough(rectangles->trial)) found_.squeezed.push_back(std::move(*rectangles));
+    const bool counts = options_.trade_off || !wish_.has_limit() || wish_.is_enough(rectangles->trial);
+    if (counts) found_.squeezed.push_back(std::move(*rectangles));
   }
 
   double most_growth() const { return options_.max_boundary_growth.value_or(kAnyGrowth); }

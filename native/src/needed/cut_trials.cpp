@@ -197,7 +197,7 @@ std::optional<SqueezedTrial> CutTrials::rectangles(const ProgressRange& range) c
     keep_words(before, *out);
     const bool has_limit = run_.asked.max_distortion || run_.asked.max_stretch;
     out->fallbacks.push_back(has_limit ? "cut into rectangles: no fewer seams were found that keep distortion within the limit"
-                                       : "cut into rectangles: no fewer seams were found that hold the bound");
+                                       : "cut into rectangles: other cuts do not hold the bound, or at a higher price");
   }
   journal.back_to(before);
   return out;

@@ -38,15 +38,6 @@ ReduceResult reduce_from(const PlacedCharts& start, const Objective& objective, 
   });
 }
 
-bool better(const ReduceResult& a, const ReduceResult& b) {
-  if (a.within_limit != b.within_limit) return a.within_limit;
-  if (!a.within_limit) return a.used_limits < b.used_limits;
-  if (a.reached != b.reached) return a.reached;
-  if (a.reached) return a.energy < b.energy;
-  const double least = std::min(a.least_energy, b.least_energy);
-  return worth_below_target(a.pe, a.energy, least) > worth_below_target(b.pe, b.energy, least);
-}
-
 /// The next gap goes on from here, unless charts were crushed on the way.
 bool usable(const ReduceResult& result) {
   constexpr double kCrushed = 1.2;
@@ -86,12 +77,21 @@ ReduceResult best_at(const Gap& gap, const std::vector<PlacedCharts>& starts, co
   best = 0;
   for (int k = 0; k < count; ++k) {
     iterations += results[k].iterations;
-    if (better(results[k], results[best])) best = k;
+    if (is_better(results[k], results[best])) best = k;
   }
   return std::move(results[best]);
 }
 
 }  // namespace
+
+bool is_better(const ReduceResult& a, const ReduceResult& b) {
+  if (a.within_limit != b.within_limit) return a.within_limit;
+  if (!a.within_limit) return a.used_limits < b.used_limits;
+  if (a.reached != b.reached) return a.reached;
+  if (a.reached) return a.energy < b.energy;
+  const double least = std::min(a.least_energy, b.least_energy);
+  return worth_below_target(a.pe, a.energy, least) > worth_below_target(b.pe, b.energy, least);
+}
 
 std::vector<Gap> automatic_gaps(const std::vector<Chart>& charts, double pe_bound, double box_aspect, double fixed_share,
                                 double most_taken) {
@@ -158,7 +158,7 @@ Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objecti
     const std::string next_note = reason(gap, result.holds() ? ReduceStatus::TooExpensive : result.status);
     present = usable(result) ? std::vector<PlacedCharts>{with_uvs_of(present[best], result)} : starts;
     if (held && !spares(result, out.outcome)) break;
-    if (first || (!trifling && better(result, out.outcome))) {
+    if (first || (!trifling && is_better(result, out.outcome))) {
       out.gap = gap;
       out.gap_note = note;
       out.outcome = std::move(result);

@@ -26,6 +26,9 @@ struct SqueezeOptions {
   Stored stored = Stored::Double;
 };
 
+/// Within its limits, then at the bound, then of less objective, or worth more below the bound.
+bool is_better(const ReduceResult& a, const ReduceResult& b);
+
 /// What to aim at so that the gap is kept when the UVs are brought to their texture and stored: charts that only move jam at the
 /// very gap they are given.
 Gap beyond_rounding(Gap gap, Stored stored);
@@ -38,6 +41,7 @@ struct Squeezed {
   ReduceResult outcome;     ///< the best result
   double rough_energy = 0;  ///< the objective that the coarse charts ended with, where there were such
   int iterations = 0;       ///< over all starts and gaps
+  int held = 0;             ///< how many charts were only moved, as bent they outgrow the densities they keep
   std::string gap_note;     ///< why the gaps before it were given up, in words; empty for the first
 };
 
@@ -67,7 +71,8 @@ Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objecti
                           Monitor& monitor);
 
 /// The same, sooner where charts have many triangles: on coarse charts, whose best result the charts themselves then go on from.
-/// Where that does not hold the bound they are squeezed directly.
+/// Where that does not hold the bound they are squeezed directly. Where charts outgrow the densities they keep, all is done once
+/// more with these only moved, and what had to grow has to stretch.
 Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor);
 

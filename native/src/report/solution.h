@@ -29,7 +29,8 @@ struct Solution {
   Ended ended = Ended::NotRun;
   double price = 0;
   double rough_energy = 0;       ///< Squeezed::rough_energy
-  WarmStart end = {};            ///< where it was squeezed: for what goes on from here
+  WarmStart end = {};            ///< where it was squeezed, but for charts held: for what goes on from here
+  int held = 0;                  ///< Squeezed::held
   int outgrown = 0;              ///< how many charts would outgrow the density that they keep for the bound
   std::vector<int> re_embedded;  ///< charts
   std::optional<RectangleReport> rectangles;
