@@ -168,6 +168,18 @@ TEST(Densities, NeededSeamsHoldTheBoundWhereChartsAreTooStiff) {
   EXPECT_LT(growth_of_caps(result), 1.5);
 }
 
+/// The layout that it is stretched into is no place to go on from.
+TEST(Densities, ACutAcrossAStiffPipeAmongOtherChartsIsFound) {
+  std::vector<Atlas> parts = {pipe(12, 2)};
+  for (int k = 0; k < 8; ++k) parts.push_back(plank(0.3, 0.3, {8.0 + k, 0}));
+  RefineOptions options = keep();
+  options.seams = Seams::Needed;
+  const RefineResult result = refine(shapes::combine(parts), options);
+  EXPECT_TRUE(result.bound_met);
+  EXPECT_LT(result.after.distortion, 1.05);
+  EXPECT_LT(result.boundary_growth, 0.2);
+}
+
 TEST(Densities, OfAStiffPipeTheTradeOffListsRectangles) {
   RefineOptions options = keep();
   options.seams = Seams::Needed;
