@@ -59,7 +59,8 @@ class Atlas:
         self.metres = context.scene.unit_settings.scale_length
         self.parts = []
         for obj in objs:
-            self.parts.append((yield from _read(context, obj, options, material_numbers)))
+            needs_room = moves and options.write_to == "COPY"
+            self.parts.append((yield from _read(context, obj, options, material_numbers, needs_room)))
         _require_names(self.parts, options)
         materials = list(material_numbers)
         canvases = find_canvases(context, objs, materials, options.atlases)
@@ -202,8 +203,10 @@ def _still_there(part):
     raise bridge.MeshError("the mesh was changed meanwhile; nothing was written")
 
 
-def _read(context, obj, options, material_numbers):
+def _read(context, obj, options, material_numbers, needs_room):
     try:
+        if needs_room:
+            bridge.check_room_for_copy(obj)
         return (yield from objects.read_part(context, obj, options, material_numbers))
     except bridge.MeshError as error:
         raise bridge.MeshError(f"{obj.name}: {error}") from error

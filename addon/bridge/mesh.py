@@ -124,6 +124,11 @@ def has_other_faces(obj, depsgraph):
     return shown != own
 
 
+def check_room_for_copy(obj):
+    if len(obj.data.uv_layers) >= versions.MOST_UV_MAPS:
+        raise MeshError("the mesh has no room for another UV map")
+
+
 def add_copy(obj, uv_map):
     """Adds a UV map that holds what the named one does, and is active. Returns its name, and that of the one that was active."""
     layers = obj.data.uv_layers

@@ -28,6 +28,10 @@ def write_uvs(layer, uvs):
         layer.data.foreach_set("uv", uvs.ravel())
 
 
+#: Of one mesh, in all versions.
+MOST_UV_MAPS = 8
+
+
 def copy_active_uv_map(layers, name):
     """Adds a copy of the active UV map and returns its name, None where there is no room."""
     count = len(layers)
