@@ -426,9 +426,9 @@ class Names(unittest.TestCase):
         self.obj.data.uv_layers.active = self.obj.data.uv_layers["3"]
         before = snapshot(self.obj)
         engine = sys.modules[f"{MODULE}.engine"]
-        with unittest.mock.patch.object(engine, "start", side_effect=AssertionError("it is refused before the run")):
-            with self.assertRaisesRegex(RuntimeError, "Loose: the mesh has no room for another UV map"):
-                bpy.ops.uv.atlas_refine(write_to="COPY", uv_map="UVMap")
+        no_run = unittest.mock.patch.object(engine, "start", side_effect=AssertionError("it is refused before the run"))
+        with no_run, self.assertRaisesRegex(RuntimeError, "Loose: the mesh has no room for another UV map"):
+            bpy.ops.uv.atlas_refine(write_to="COPY", uv_map="UVMap")
         self.assertEqual(bpy.ops.uv.atlas_refine_measure(), {"FINISHED"})
         self.assertEqual(changes(before, snapshot(self.obj)), [])
 
