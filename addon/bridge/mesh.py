@@ -125,6 +125,7 @@ def has_other_faces(obj, depsgraph):
 
 
 def check_room_for_copy(obj):
+    """Refuses an object whose mesh can have no further UV map."""
     if len(obj.data.uv_layers) >= versions.MOST_UV_MAPS:
         raise MeshError("the mesh has no room for another UV map")
 

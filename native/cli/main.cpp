@@ -44,7 +44,8 @@ enum Exit {
   exit_bound_not_reached = 4
 };
 
-/// Memory that is given back to the system comes back page by page, emptied: 3 to 6 % of the time on two threads.
+/// Memory that is given back to the system comes back page by page, emptied, which takes its time (native/README.md, "Two
+/// threads").
 void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int kMiB = 1 << 20;

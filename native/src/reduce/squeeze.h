@@ -71,8 +71,8 @@ Squeezed squeeze_directly(const std::vector<PlacedCharts>& starts, const Objecti
                           Monitor& monitor);
 
 /// The same, sooner where charts have many triangles: on coarse charts, whose best result the charts themselves then go on from.
-/// Where that does not hold the bound they are squeezed directly. Where charts outgrow the densities they keep, all is done once
-/// more with these only moved, and what had to grow has to stretch.
+/// Where that does not hold the bound they are squeezed directly. Where charts outgrow the densities they keep, all is done
+/// again with these only moved, until none does, or no more are to be held: what would grow by them has to stretch.
 Squeezed squeeze(const std::vector<PlacedCharts>& starts, const Objective& objective, const SqueezeOptions& options,
                  Monitor& monitor);
 

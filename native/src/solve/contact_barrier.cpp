@@ -68,7 +68,7 @@ void add_interior(ContactDerivatives& out, const Closest& closest, const Vec2& e
 
 BarrierValue log_barrier(double x) {
   if (x >= 1) return {};
-  if (!(x > 0)) return {log_barrier_value(x), 0, 0};
+  if (!(x > 0)) return {std::numeric_limits<double>::infinity(), 0, 0};
   const double u = x - 1;
   const double l = std::log(x);
   return {-u * u * l, -2 * u * l - u * u / x, -2 * l - 4 * u / x + u * u / (x * x)};
