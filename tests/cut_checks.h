@@ -153,7 +153,7 @@ inline Laid laid(const Atlas& atlas, double pe_bound = 0.8, double sigma = 0.01)
   Laid out{atlas, split_charts(atlas), {}, {}, {}};
   Monitor monitor;
   out.aligned = aligned(out.set.charts, sigma);
-  out.layout = search_layout(out.aligned, out.set.charts, layout_options(pe_bound), monitor);
+  out.layout = search_layouts(out.aligned, out.set.charts, layout_options(pe_bound), monitor).front();
   TracedTrails traced = trace_trails(out.aligned, out.layout.trails);
   const auto& points = out.set.points;
   follow_divided(match_boundaries(traced.meshes, points), traced.paths);

@@ -138,7 +138,9 @@ CutPlan plan_cuts(const Refinement& run, const ProgressRange& range) {
   run.journal.begin_stage("layout", range.part(0.78, 1));  // section 3.2
   LayoutOptions layout = layout_options(run);
   if (options.cut == Cut::Split) layout.prices = plan.prices;  // along edges, paths beside the trails find their own way
-  plan.layout = search_layout(plan.aligned, plan.charts, layout, run.monitor);
+  plan.others = search_layouts(plan.aligned, plan.charts, layout, run.monitor);
+  plan.layout = std::move(plan.others.front());
+  plan.others.erase(plan.others.begin());
   refer_to_input(plan.atlas, plan.aligned);
   return plan;
 }

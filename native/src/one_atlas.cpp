@@ -110,16 +110,20 @@ std::optional<double> distortion_of_whole(const Refinement& run, double most) {
   }
 }
 
-/// Where the charts would have been better off without cuts at the same bound, the warnings say so.
-void compare_with_whole(const Refinement& run, const CertifiedSolution& cut, const ProgressRange& range) {
+/// Where the charts would have been better off without cuts at the same bound, the warnings say so. Where the cuts have made them
+/// worse than they came as well, they were made for nothing: returns that.
+std::string compare_with_whole(const Refinement& run, const CertifiedSolution& cut, const ProgressRange& range) {
   constexpr double kWorthTelling = 1e-4;  // of E_d
-  if (run.monitor.finishing()) return;
+  if (run.monitor.finishing()) return "";
   run.journal.begin_stage("compare", range.part(0.98, 1));
   const double own = cut.atlas.after.distortion;
   const auto whole = distortion_of_whole(run, own - kWorthTelling);
-  if (!whole) return;
-  run.journal.warnings.push_back("without cuts the charts hold the same bound with less distortion: E_d " +
-                                 number_text("%.4f", *whole) + " against " + number_text("%.4f", own));
+  if (!whole) return "";
+  const std::string figures = "E_d " + number_text("%.4f", *whole) + " against " + number_text("%.4f", own);
+  if (own > run.input.measures.distortion + kWorthTelling)
+    return "cut, they are more distorted than they came, and than they are whole: " + figures;
+  run.journal.warnings.push_back("without cuts the charts hold the same bound with less distortion: " + figures);
+  return "";
 }
 
 /// Nothing is asked of an input that holds already, but another size. Charts that are turned over need places of their own.
@@ -149,15 +153,15 @@ std::optional<CertifiedSolution> solve_with_cuts(const Refinement& run, const Pr
     Attempt attempt = refine_by_rectangles(run, range.part(0, 0.96));
     if (attempt.solution) {
       CertifiedSolution result = certified(run, std::move(*attempt.solution), range);
-      if (!run.options.rectangles.until_input) compare_with_whole(run, result, range);
-      return result;
-    }
-    if (attempt.needless) {
+      if (!run.options.rectangles.until_input) failure = compare_with_whole(run, result, range);
+      if (failure.empty()) return result;
+    } else if (attempt.needless) {
       journal.back_to(before);
       journal.warnings.emplace_back("no chart needs a cut");
       return std::nullopt;
+    } else {
+      failure = attempt.failure;
     }
-    failure = attempt.failure;
   } catch (const RefineError& error) {
     if (error.code() != ErrorCode::NotCertified) throw;
     failure = error.what();

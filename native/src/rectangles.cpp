@@ -3,21 +3,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <tuple>
 
+#include "atlas_refine/error.h"
 #include "cut/boundary_places.h"
 #include "cut_along_edges.h"
 #include "cut_plan.h"
 #include "geometry/guards.h"
 #include "layout/trail_paths.h"
 #include "place_and_squeeze.h"
+#include "placing.h"
 #include "rectangle_pictures.h"
 #include "reduce_pieces.h"
 #include "report/locked.h"
 
 namespace atlas_refine {
 namespace {
+
+// From so many pieces on another layout takes long and brings next to nothing.
+constexpr std::size_t kHundreds = 100;
 
 /// How many edges that must stay whole the cuts run along or across.
 int forbidden_edges_cut(const CutPlan& plan, const CutAtlas& cut) {
@@ -82,8 +88,8 @@ void tell(const Refinement& run, const CutPlan& plan, const CutAtlas& cut, const
 }
 
 /// Charts divided along the trails and taken apart, where the axis-aligned charts lie.
-CutAtlas cut_along_trails(const Refinement& run, const CutPlan& plan) {
-  TracedTrails traced = trace_trails(plan.aligned, plan.layout.trails);
+CutAtlas cut_along_trails(const Refinement& run, const CutPlan& plan, const Layout& layout) {
+  TracedTrails traced = trace_trails(plan.aligned, layout.trails);
   const auto& points = run.input.set.points;
   follow_divided(match_boundaries(traced.meshes, points), traced.paths);
   return cut_along(divided_atlas(traced.meshes, plan.sources, points), plan.sources, traced.paths);
@@ -115,18 +121,44 @@ Attempt place_around_locked(const Refinement& run, const CutPlan& plan, CutAtlas
   return {.solution = std::move(*out)};
 }
 
-Attempt cut_across_faces(const Refinement& run, const CutPlan& plan, const ProgressRange& range) {
-  Solution out{.intervention = Intervention::Cut, .atlas = cut_along_trails(run, plan)};
-  if (out.atlas.seams.empty()) return {.needless = true};
-  if (any_fixed(plan.freedom)) return place_around_locked(run, plan, std::move(out.atlas), range);
+/// Nothing where the charts cannot be cut so, or would be left whole: these are squeezed.
+std::optional<ReducedPieces> reduced_in(const Refinement& run, const CutPlan& plan, const Layout& layout) {
+  const CutAtlas cut = cut_along_trails(run, plan, layout);
+  if (cut.seams.empty()) return std::nullopt;
+  try {
+    return reduce_pieces(run, plan, layout, cut);
+  } catch (const RefineError& error) {
+    if (error.code() != ErrorCode::NotCertified) throw;
+    return std::nullopt;
+  }
+}
+
+/// Of the layouts that eq. (11) likes best the one whose pieces have the least distortion for their seams.
+ReducedPieces reduced_in_best_layout(const Refinement& run, const CutPlan& plan, const CutAtlas& cut) {
+  ReducedPieces best = reduce_pieces(run, plan, plan.layout, cut);
+  const bool one_is_enough = plan.enough > 0 || limits_of(run.options).any() || cut.pieces.size() > kHundreds;
+  for (const Layout& layout : plan.others) {
+    if (run.monitor.finishing() || (one_is_enough && best.holds())) break;
+    auto trial = reduced_in(run, plan, layout);
+    if (trial && trial->better_than(best)) best = std::move(*trial);
+  }
+  return best;
+}
+
+Attempt cut_across_faces(const Refinement& run, CutPlan plan, const ProgressRange& range) {
+  CutAtlas cut = cut_along_trails(run, plan, plan.layout);
+  if (cut.seams.empty()) return {.needless = true};
+  if (any_fixed(plan.freedom)) return place_around_locked(run, plan, std::move(cut), range);
   run.journal.begin_stage("reduce", range);
-  ReducedPieces pieces = reduce_pieces(run, plan, std::move(out.atlas));
+  ReducedPieces pieces = reduced_in_best_layout(run, plan, cut);
+  plan.layout = pieces.layout;
+  if (pieces.holds()) finish_pieces(run, plan, pieces);
   run.journal.show("packed", pieces.packed);
   if (!pieces.failure.empty()) return {.failure = std::move(pieces.failure)};
   const ReduceResult& reduced = pieces.result;
   if (!reduced.within_limit) return {.failure = "cut, they stay above the largest distortion or stretch allowed"};
   if (!reduced.reached) return {.failure = "cut, they do not reach the bound"};
-  out.atlas = std::move(pieces.atlas);
+  Solution out{.intervention = Intervention::Cut, .atlas = std::move(pieces.atlas)};
   out.gap = plan.layout.gap;
   out.ended = ended_of(reduced.status);
   out.price = reduced.price;
@@ -158,7 +190,7 @@ Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) 
       run.journal.show(picture);
   }
   return along_edges ? cut_along_edges(run, std::move(*plan), range.part(0.45, 1))
-                     : cut_across_faces(run, *plan, range.part(0.45, 1));
+                     : cut_across_faces(run, std::move(*plan), range.part(0.45, 1));
 }
 
 }  // namespace atlas_refine

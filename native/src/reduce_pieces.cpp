@@ -17,7 +17,6 @@
 #include "reduce/goal.h"
 #include "reduce/squeeze.h"
 #include "report/locked.h"
-#include "support/parallel.h"
 
 namespace atlas_refine {
 namespace {
@@ -37,9 +36,10 @@ constexpr int kFewIterations = 3;        // take the deformation back within coa
 // Hundreds of pieces may be jammed and slide on and on, by next to nothing: each reduction ends after so many iterations.
 constexpr std::size_t kHundreds = 100;
 constexpr int kMostIterations = 150;
-constexpr int kOtherWays = 2;           // that pieces are packed in besides, where they are reduced on coarse charts; else
-constexpr std::size_t kReduced = 6000;  // as many as so many triangles are reduced in, some tenths of a second,
+// Fewer triangles are packed in other ways besides:
+constexpr std::size_t kReduced = 6000;  // in as many as so many triangles are reduced in, some tenths of a second,
 constexpr std::size_t kMostWays = 7;    // and at most these
+constexpr double kSeamCost = 0.02;      // E_d that a layout has to save for each unit of boundary growth
 constexpr double kSpread = 1.01;        // what pieces are put further apart by before the reduction, as a factor on their places
 
 /// How far pieces are reduced, and from where.
@@ -78,7 +78,7 @@ struct Task {
   const Freedoms& freedom;
 };
 
-ReduceResult reduce(const Refinement& run, const Task& task, const Reduction& reduction, int threads) {
+ReduceResult reduce(const Refinement& run, const Task& task, const Reduction& reduction) {
   const int most = task.charts.size() > kHundreds ? kMostIterations : ReduceProblem::kMostIterations;
   const ReduceProblem problem{.charts = task.charts,
                               .objective = &task.objective,
@@ -90,7 +90,7 @@ ReduceResult reduce(const Refinement& run, const Task& task, const Reduction& re
                               .negligible = reduction.negligible,
                               .limits = limits_of(run.options),
                               .max_iterations = std::min(most, reduction.most),
-                              .threads = threads,
+                              .threads = run.threads,
                               .freedom = task.freedom,
                               .warm = reduction.warm};
   ReduceResult reduced = reduce_distortion(problem, [&](const ReduceProgress& progress) {
@@ -106,11 +106,11 @@ Freedoms freedom_in(const Refinement& run, const CutAtlas& cut) {
 }
 
 /// Moves the pieces to less distortion under the bound.
-ReduceResult reduce(const Refinement& run, const Reduction& reduction, CutAtlas& cut) {
+ReduceResult reduce_fine(const Refinement& run, const Reduction& reduction, CutAtlas& cut) {
   const std::vector<Chart> pieces = meshes_of(cut);
   const Objective objective = goal_of(run.input.set.charts, cut, run.options);
   const Freedoms freedom = freedom_in(run, cut);
-  ReduceResult reduced = reduce(run, {pieces, objective, freedom}, reduction, run.threads);
+  ReduceResult reduced = reduce(run, {pieces, objective, freedom}, reduction);
   run.journal.iterations += reduced.iterations;
   cut = with_uvs(std::move(cut), reduced.uvs);
   return reduced;
@@ -137,10 +137,9 @@ std::optional<CoarsePieces> coarse_pieces(const Refinement& run, const CutPlan& 
   return out;
 }
 
-ReduceResult reduce(const Refinement& run, const CoarsePieces& pieces, const std::vector<Chart>& fine, const Reduction& reduction,
-                    int threads) {
-  const PlacedCharts start = restricted(pieces.coarse, PlacedCharts{.charts = fine});
-  return reduce(run, {start.charts, pieces.coarse.objective, pieces.freedom}, reduction, threads);
+ReduceResult reduce_coarse(const Refinement& run, const CoarsePieces& pieces, const Reduction& reduction) {
+  const PlacedCharts start = restricted(pieces.coarse, PlacedCharts{.charts = pieces.fine});
+  return reduce(run, {start.charts, pieces.coarse.objective, pieces.freedom}, reduction);
 }
 
 /// True where the pieces could be put where their coarse charts have ended; else nothing has changed.
@@ -154,110 +153,82 @@ bool carry_over(const CoarsePieces& pieces, const ReduceResult& end, CutAtlas& c
   return true;
 }
 
-/// The pieces after their first reduction.
-struct FirstReduced {
-  ReducedPieces pieces;
-  bool carried = false;  ///< over from coarse charts; `result` is theirs
-};
-
-/// Packed in several ways on the same coarse charts; the best end that can be is carried over to the pieces of `at`, which lie as
-/// in the plan's own layout.
-void reduce_coarsely(const Refinement& run, const CutPlan& plan, const Reduction& reduction, const CutAtlas& cut,
-                     FirstReduced& at) {
-  const auto pieces = coarse_pieces(run, plan, at.pieces.atlas);
+/// On coarse charts, from where it lies; nothing has changed where they do not reach the bound or cannot be carried over.
+void reduce_coarsely(const Refinement& run, const CutPlan& plan, const Reduction& reduction, ReducedPieces& at) {
+  const auto pieces = coarse_pieces(run, plan, at.atlas);
   if (!pieces) return;
-  std::vector<std::vector<Chart>> packed = {at.pieces.packed};
-  std::vector<std::vector<Chart>> starts = {pieces->fine};
-  for (const Layout& layout : packed_otherwise(plan.layout, kOtherWays, layout_options(run))) {
-    CutAtlas placed = cut;
-    packed.push_back(place(run, layout, placed));
-    starts.push_back(pieces->fine);
-    for (std::size_t p = 0; p < placed.pieces.size(); ++p) starts.back()[p].uvs = std::move(placed.pieces[p].mesh.uvs);
-  }
-  const int count = static_cast<int>(starts.size());
-  std::vector<ReduceResult> ends(count);
-  parallel_ranges(count, run.threads, 1, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) ends[k] = reduce(run, *pieces, starts[k], reduction, std::max(1, run.threads / count));
-  });
-  std::vector<int> order;
-  for (int k = 0; k < count; ++k) {
-    run.journal.iterations += ends[k].iterations;
-    if (ends[k].holds()) order.push_back(k);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return ends[a].energy < ends[b].energy; });
-  const auto best =
-      std::find_if(order.begin(), order.end(), [&](int k) { return carry_over(*pieces, ends[k], at.pieces.atlas); });
-  if (best == order.end()) return;
+  ReduceResult end = reduce_coarse(run, *pieces, reduction);
+  run.journal.iterations += end.iterations;
+  if (!carry_over(*pieces, end, at.atlas)) return;
   at.carried = true;
-  at.pieces.packed = std::move(packed[*best]);
-  at.pieces.result = std::move(ends[*best]);
+  at.result = std::move(end);
 }
 
-FirstReduced placed_in(const Refinement& run, const Layout& layout, CutAtlas cut) {
-  FirstReduced out{.pieces = {.atlas = std::move(cut), .packed = {}}};
-  out.pieces.packed = place(run, layout, out.pieces.atlas);
-  if (const Validity start = certify_charts(meshes_of(out.pieces.atlas)); !start.valid())
-    out.pieces.failure = "in their layout " + start.problem;
+ReducedPieces placed_in(const Refinement& run, const Layout& layout, CutAtlas cut) {
+  ReducedPieces out{.atlas = std::move(cut), .layout = layout, .packed = {}};
+  out.packed = place(run, layout, out.atlas);
+  if (const Validity start = certify_charts(meshes_of(out.atlas)); !start.valid())
+    out.failure = "in their layout " + start.problem;
   return out;
-}
-
-/// Pieces are packed in several ways: what is best is known only once they are reduced.
-FirstReduced first_reduced(const Refinement& run, const CutPlan& plan, const CutAtlas& cut) {
-  Reduction reduction{.gap = plan.layout.gap, .negligible = kRoughChange, .enough = plan.enough};
-  reduction.gap.value *= kFirstGap;
-  FirstReduced best = placed_in(run, plan.layout, cut);
-  if (!best.pieces.failure.empty()) return best;
-  reduce_coarsely(run, plan, reduction, cut, best);
-  if (best.carried) return best;
-  reduction.negligible = kFirstChange;
-  best.pieces.result = reduce(run, reduction, best.pieces.atlas);
-  const std::size_t triangles = triangle_count(cut);
-  if (triangles >= kMany || !best.pieces.result.holds()) return best;
-  const int ways = static_cast<int>(std::min(kMostWays, kReduced / (triangles + 1)));
-  for (const Layout& layout : packed_otherwise(plan.layout, ways, layout_options(run))) {
-    FirstReduced trial = placed_in(run, layout, cut);
-    if (!trial.pieces.failure.empty()) continue;
-    trial.pieces.result = reduce(run, reduction, trial.pieces.atlas);
-    if (trial.pieces.result.holds() && trial.pieces.result.energy < best.pieces.result.energy) best = std::move(trial);
-  }
-  return best;
 }
 
 /// From where coarse charts have ended: no map of their triangles takes back how the axes have deformed the pieces within them.
 /// A few steps do, then new ones, whose triangles have the shapes they want, go on.
-ReduceResult reduce_on(const Refinement& run, const CutPlan& plan, WarmStart warm, CutAtlas& cut) {
-  const Gap& gap = plan.layout.gap;
-  ReduceResult out =
-      reduce(run, {.gap = gap, .negligible = kCarriedChange, .most = kFewIterations, .warm = std::move(warm)}, cut);
+void reduce_on(const Refinement& run, const CutPlan& plan, ReducedPieces& at) {
+  const Gap& gap = at.layout.gap;
+  CutAtlas& cut = at.atlas;
+  ReduceResult& out = at.result;
+  out = reduce_fine(run, {.gap = gap, .negligible = kCarriedChange, .most = kFewIterations, .warm = std::move(out.end)}, cut);
   for (int k = 1; k <= kCoarsenings && out.status == ReduceStatus::OutOfTime; ++k) {
     const auto pieces = coarse_pieces(run, plan, cut);
     bool carried = false;
     if (pieces) {
-      ReduceResult end =
-          reduce(run, *pieces, pieces->fine, {.gap = gap, .negligible = kCoarseChange, .warm = out.end}, run.threads);
+      ReduceResult end = reduce_coarse(run, *pieces, {.gap = gap, .negligible = kCoarseChange, .warm = out.end});
       run.journal.iterations += end.iterations;
       carried = carry_over(*pieces, end, cut);
       if (carried) out.end = std::move(end.end);
     }
     const bool last = !carried || k == kCoarsenings;
     const int most = last ? ReduceProblem::kMostIterations : kFineIterations;
-    out = reduce(run, {.gap = gap, .negligible = kCarriedChange, .most = most, .warm = out.end}, cut);
+    out = reduce_fine(run, {.gap = gap, .negligible = kCarriedChange, .most = most, .warm = out.end}, cut);
     if (last) break;
   }
-  return out;
 }
 
 }  // namespace
 
-ReducedPieces reduce_pieces(const Refinement& run, const CutPlan& plan, CutAtlas cut) {
-  auto [out, carried] = first_reduced(run, plan, cut);
-  if (!out.failure.empty() || !out.result.holds()) return out;
-  restore_pieces(plan.sources, plan.freedom, out.atlas);
-  if (carried)
-    out.result = reduce_on(run, plan, out.result.end, out.atlas);
+bool ReducedPieces::better_than(const ReducedPieces& other) const {
+  if (!holds() || !other.holds()) return holds();
+  return result.energy + kSeamCost * layout.growth < other.result.energy + kSeamCost * other.layout.growth;
+}
+
+ReducedPieces reduce_pieces(const Refinement& run, const CutPlan& plan, const Layout& layout, const CutAtlas& cut) {
+  Reduction reduction{.gap = layout.gap, .negligible = kRoughChange, .enough = plan.enough};
+  reduction.gap.value *= kFirstGap;
+  ReducedPieces best = placed_in(run, layout, cut);
+  if (!best.failure.empty()) return best;
+  reduce_coarsely(run, plan, reduction, best);
+  if (best.carried) return best;
+  reduction.negligible = kFirstChange;
+  best.result = reduce_fine(run, reduction, best.atlas);
+  const std::size_t triangles = triangle_count(cut);
+  if (triangles >= kMany || !best.holds()) return best;
+  const int ways = static_cast<int>(std::min(kMostWays, kReduced / (triangles + 1)));
+  for (const Layout& other : packed_otherwise(layout, ways, layout_options(run))) {
+    ReducedPieces trial = placed_in(run, other, cut);
+    if (!trial.failure.empty()) continue;
+    trial.result = reduce_fine(run, reduction, trial.atlas);
+    if (trial.better_than(best)) best = std::move(trial);
+  }
+  return best;
+}
+
+void finish_pieces(const Refinement& run, const CutPlan& plan, ReducedPieces& at) {
+  restore_pieces(plan.sources, plan.freedom, at.atlas);
+  if (at.carried)
+    reduce_on(run, plan, at);
   else
-    out.result = reduce(run, {.gap = plan.layout.gap, .negligible = kLastChange, .enough = plan.enough}, out.atlas);
-  return out;
+    at.result = reduce_fine(run, {.gap = at.layout.gap, .negligible = kLastChange, .enough = plan.enough}, at.atlas);
 }
 
 void restore_pieces(const std::vector<Chart>& charts, const Freedoms& freedom, CutAtlas& cut) {

@@ -11,14 +11,22 @@ namespace atlas_refine {
 
 struct ReducedPieces {
   CutAtlas atlas;
+  Layout layout;              ///< that it is cut and was packed by
   std::vector<Chart> packed;  ///< before, as the layout has them
   std::string failure = {};   ///< why there is no result
   ReduceResult result = {};
+  bool carried = false;  ///< over from coarse charts; `result` is theirs
+
+  bool holds() const { return failure.empty() && result.holds(); }
+  bool better_than(const ReducedPieces& other) const;
 };
 
-/// `cut`: the axis-aligned charts of the plan, cut along its trails. Where they have many triangles their pieces are reduced on
-/// coarse charts first, in several packings, of which the best is kept.
-ReducedPieces reduce_pieces(const Refinement& run, const CutPlan& plan, CutAtlas cut);
+/// `cut`: the axis-aligned charts of the plan, cut along the layout's trails. Reduced to near the optimum: many triangles on
+/// coarse charts, few in several packings, of which the best is kept.
+ReducedPieces reduce_pieces(const Refinement& run, const CutPlan& plan, const Layout& layout, const CutAtlas& cut);
+
+/// From there, if it holds the bound, to the optimum, without the vertices that only served the deformation.
+void finish_pieces(const Refinement& run, const CutPlan& plan, ReducedPieces& at);
 
 /// Takes out the vertices that only served the deformation, of charts that bend.
 void restore_pieces(const std::vector<Chart>& charts, const Freedoms& freedom, CutAtlas& cut);

@@ -10,7 +10,7 @@ namespace {
 
 Layout searched(const testing::Laid& laid, const LayoutOptions& options) {
   Monitor monitor;
-  return search_layout(laid.aligned, laid.set.charts, options, monitor);
+  return search_layouts(laid.aligned, laid.set.charts, options, monitor).front();
 }
 
 void expect_apart(const Layout& layout) {
@@ -66,6 +66,24 @@ TEST(SearchLayout, ThreadsAndRepetitionChangeNothing) {
   }
 }
 
+TEST(SearchLayout, OtherLayoutsHoldTheBoundByOtherCuts) {
+  constexpr double kBound = 0.8;
+  std::size_t others = 0;
+  for (const Atlas& atlas : testing::many_atlases()) {
+    const testing::Laid laid = testing::laid(atlas, kBound);
+    Monitor monitor;
+    const auto found = search_layouts(laid.aligned, laid.set.charts, testing::layout_options(kBound), monitor);
+    for (std::size_t a = 0; a < found.size(); ++a) {
+      EXPECT_GE(found[a].pe, kBound);
+      expect_apart(found[a]);
+      for (std::size_t b = 0; b < a; ++b)
+        EXPECT_TRUE(found[a].pieces.size() != found[b].pieces.size() || std::abs(found[a].growth - found[b].growth) > 1e-9);
+    }
+    others += found.size() - 1;
+  }
+  EXPECT_GT(others, 0U);
+}
+
 TEST(SearchLayout, OtherPackingsHoldTheBoundAndTheGapToo) {
   int found = 0;
   for (const auto& atlas : testing::many_atlases()) {
@@ -119,7 +137,7 @@ TEST(SearchLayout, StopsWhenAsked) {
   const testing::Laid laid = testing::laid(testing::many_atlases().front());
   Monitor monitor;
   monitor.cancel();
-  EXPECT_THROW(search_layout(laid.aligned, laid.set.charts, testing::layout_options(0.8), monitor), RefineError);
+  EXPECT_THROW(search_layouts(laid.aligned, laid.set.charts, testing::layout_options(0.8), monitor), RefineError);
 }
 
 TEST(PlacePieces, EveryPieceGoesToItsPlace) {

@@ -60,6 +60,14 @@ TEST(CutFaces, CornersSourcesAndWeightsFitTogether) {
   }
 }
 
+TEST(CutFaces, NewVerticesStayOnAWallFarFromTheOrigin) {
+  constexpr double kFar = 1e16 / 3;  // rounding there is half a unit
+  for (Atlas atlas : testing::many_atlases()) {
+    for (Vec3& position : atlas.positions) position.z() = kFar;
+    for (const Vec3& position : faces_of(testing::laid(atlas)).positions) EXPECT_EQ(position.z(), kFar) << atlas.name;
+  }
+}
+
 TEST(CutFaces, NoFaceNamesAVertexTwiceBesideAConesTip) {
   // Two edges of one face from the tip's vertices are one edge in space: cut across, both get one new vertex, which is doubled.
   const Atlas atlas = cone(8);
@@ -142,6 +150,7 @@ int expect_corner_means(const Atlas& atlas, const CutFaces& out) {
       int heaviest = 0;
       weights.maxCoeff(&heaviest);
       Vec3 there = Vec3::Zero();
+      std::vector<Vec3> corners;
       for (int k = 0; k < 3; ++k) {
         const int source = mesh.corner_sources[c][k];
         EXPECT_GE(source, atlas.face_offsets[mesh.face_sources[f]]);
@@ -149,8 +158,12 @@ int expect_corner_means(const Atlas& atlas, const CutFaces& out) {
         if (weights[k] == 0) {
           EXPECT_EQ(source, mesh.corner_sources[c][heaviest]);
         }
-        there += weights[k] * atlas.positions[atlas.corner_vertices[source]];
+        corners.push_back(atlas.positions[atlas.corner_vertices[source]]);
+        there += weights[k] * corners.back();
       }
+      const Vec3 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+      const Vec3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+      there = there.cwiseMax(low).cwiseMin(high);
       EXPECT_EQ(there, out.positions[mesh.corner_vertices[c]]) << "faces of one vertex must agree to the last bit";
       if (mesh.corner_vertices[c] < static_cast<int>(atlas.positions.size())) {
         EXPECT_EQ(weights, Vec3(1, 0, 0));

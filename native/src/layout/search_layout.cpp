@@ -33,6 +33,7 @@ constexpr double kLikelyPe = 0.85;  // of a layout, for its first padding
 struct Score {
   double value = -1e9;
   double pe = 0;
+  double growth = 0;  // of the boundary, as a fraction of that of all charts
 };
 
 struct Candidate {
@@ -141,8 +142,8 @@ Score score_of(const Candidate& candidate, const Round& round, const LayoutOptio
   }
   Score score;
   score.pe = round.area / candidate.packing.box.prod();
-  const double growth = round.cut_length_unit > 0 ? cut / round.cut_length_unit : 0;
-  score.value = score.pe - options.rectangles.omega * (1 + growth);
+  score.growth = round.cut_length_unit > 0 ? cut / round.cut_length_unit : 0;
+  score.value = score.pe - options.rectangles.omega * (1 + score.growth);
   if (score.pe < pe_target(options)) score.value -= 1 + 10 * (pe_target(options) - score.pe);
   if (longest > kLongestSides) score.value -= 100;
   return score;
@@ -255,24 +256,38 @@ Layout layout_of(const Candidate& candidate, const Round& round) {
   }
   out.box = candidate.packing.box;
   out.pe = candidate.score.pe;
+  out.growth = candidate.score.growth;
   out.gap = round.gap;
   out.extra_corners = round.extra_corners;
   return out;
 }
 
-Layout search_round(const Round& round, const LayoutOptions& options, Monitor& monitor) {
-  double padding = padding_of(round.gap, sides_of_area(round.area / kLikelyPe, options.box_aspect));
+/// Cuts of one length that pack alike are one: told by their trails, they may be the same in another order, or mirror images.
+bool cut_alike(const Layout& a, const Layout& b) {
+  constexpr double kRounding = 1e-9;
+  return a.pieces.size() == b.pieces.size() && std::abs(a.growth - b.growth) < kRounding;
+}
+
+/// A larger gap makes a larger box: what was packed for another box is packed again.
+void keep_gap(Candidate& candidate, const Round& round, const LayoutOptions& options, double padding) {
+  for (int k = 0; k < 4 && padding < padding_of(round.gap, candidate.packing.box); ++k) {
+    padding = padding_of(round.gap, candidate.packing.box) * (1 + 0.002 * k);
+    pack_well(candidate, round, options, padding, k);
+  }
+}
+
+std::vector<Layout> search_round(const Round& round, const LayoutOptions& options, Monitor& monitor) {
+  const double padding = padding_of(round.gap, sides_of_area(round.area / kLikelyPe, options.box_aspect));
   std::vector<Candidate> finalists = run_chains(round, options, padding, monitor);
-  Candidate best = std::move(finalists.front());
+  std::stable_sort(finalists.begin(), finalists.end(), is_better);
+  std::vector<Layout> out;
   for (Candidate& candidate : finalists) {
-    if (is_better(candidate, best)) best = std::move(candidate);
+    keep_gap(candidate, round, options, padding);
+    Layout layout = layout_of(candidate, round);
+    const bool known = std::any_of(out.begin(), out.end(), [&](const Layout& other) { return cut_alike(other, layout); });
+    if (out.empty() || (!known && layout.pe >= pe_target(options))) out.push_back(std::move(layout));
   }
-  // A larger gap makes a larger box: what was packed for another box is packed again.
-  for (int k = 0; k < 4 && padding < padding_of(round.gap, best.packing.box); ++k) {
-    padding = padding_of(round.gap, best.packing.box) * (1 + 0.002 * k);
-    pack_well(best, round, options, padding, k);
-  }
-  return layout_of(best, round);
+  return out;
 }
 
 /// True where the same pieces lie in the same places, up to reflections of the box and, where it is free, of its axes: what the
@@ -305,24 +320,25 @@ bool packed_alike(const Layout& a, const Layout& b, bool free_box) {
 
 }  // namespace
 
-Layout search_layout(const std::vector<AxisAlignedChart>& aligned, const std::vector<Chart>& sources,
-                     const LayoutOptions& options, Monitor& monitor) {
+std::vector<Layout> search_layouts(const std::vector<AxisAlignedChart>& aligned, const std::vector<Chart>& sources,
+                                   const LayoutOptions& options, Monitor& monitor) {
   const PhaseScope scope(Phase::Layout);
   const std::vector<Decomposition> boxes = boxes_of(aligned, sources);
-  Layout best;
-  for (std::size_t g = 0; g < options.gaps.size(); ++g) {
-    Round round{static_cast<int>(g), options.gaps[g], 0, {}, boxes, {}};
+  std::vector<Layout> best;
+  const auto holds = [&] { return !best.empty() && best.front().pe >= pe_target(options); };
+  const auto search = [&](int number, const Gap& gap, int extra_corners) {
+    Round round{number, gap, extra_corners, {}, boxes, {}};
     add_quad_meshes(round, aligned, sources, options.prices);
-    const Layout layout = search_round(round, options, monitor);
-    if (best.pieces.empty() || layout.pe > best.pe) best = layout;
-    if (best.pe >= pe_target(options) || highest_pe(round) < pe_target(options)) return best;
+    std::vector<Layout> layouts = search_round(round, options, monitor);
+    if (best.empty() || layouts.front().pe > best.front().pe) best = std::move(layouts);
+    return highest_pe(round) >= pe_target(options);
+  };
+  for (std::size_t g = 0; g < options.gaps.size(); ++g) {
+    if (!search(static_cast<int>(g), options.gaps[g], 0) || holds()) return best;
   }
   for (const int extra : kExtraCorners) {
-    Round round{extra, options.gaps.back(), extra, {}, boxes, {}};
-    add_quad_meshes(round, aligned, sources, options.prices);
-    const Layout layout = search_round(round, options, monitor);
-    if (layout.pe > best.pe) best = layout;
-    if (best.pe >= pe_target(options)) return best;
+    search(extra, options.gaps.back(), extra);
+    if (holds()) break;
   }
   return best;
 }

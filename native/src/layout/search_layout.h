@@ -26,6 +26,7 @@ struct Layout {
   std::vector<PlacedPiece> pieces;
   Vec2 box = Vec2::Zero();
   double pe = 0;          ///< of the charts in the box
+  double growth = 0;      ///< of the boundary, as a fraction of that of the axis-aligned charts
   Gap gap;                ///< kept between pieces
   int extra_corners = 0;  ///< added per chart beyond its own because the bound was missed
 };
@@ -41,9 +42,11 @@ struct LayoutOptions {
 };
 
 /// The best of options.rectangles.candidates layouts by eq. (11) among those at the bound. Where none holds it: smaller gaps,
-/// then extra corners; at last the layout of the highest PE. `sources` are the charts that `aligned` were made from.
-Layout search_layout(const std::vector<AxisAlignedChart>& aligned, const std::vector<Chart>& sources,
-                     const LayoutOptions& options, Monitor& monitor);
+/// then extra corners; at last the layout of the highest PE. After it others that hold the bound by other cuts: which
+/// of them leaves the least distortion is known only once pieces are reduced. `sources` are the charts that `aligned` were made
+/// from.
+std::vector<Layout> search_layouts(const std::vector<AxisAlignedChart>& aligned, const std::vector<Chart>& sources,
+                                   const LayoutOptions& options, Monitor& monitor);
 
 /// The same pieces packed in up to `ways` other ways that hold the bound.
 std::vector<Layout> packed_otherwise(const Layout& layout, int ways, const LayoutOptions& options);

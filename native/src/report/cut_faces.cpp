@@ -274,13 +274,25 @@ void add_face(const Sources& in, int face, int piece, const std::vector<int>& ou
   out.mesh.face_sources.push_back(face);
 }
 
+/// Within the box of the corners that it is a mean of: far from the origin rounding is coarse against a face, and where these
+/// share a coordinate it would lift the vertex out of their plane.
+Vec3 mean_position(const Sources& in, const NewVertex& vertex) {
+  Vec3 mean = Vec3::Zero(), low, high;
+  bool first = true;
+  for (int k = 0; k < 3; ++k) {
+    if (vertex.weights[k] == 0) continue;
+    const Vec3& corner = in.position(vertex.corners[k]);
+    mean += vertex.weights[k] * corner;
+    low = first ? corner : low.cwiseMin(corner);
+    high = first ? corner : high.cwiseMax(corner);
+    first = false;
+  }
+  return mean.cwiseMax(low).cwiseMin(high);
+}
+
 std::vector<Vec3> positions_with(const Sources& in, const std::vector<NewVertex>& vertices) {
   std::vector<Vec3> out = in.atlas.positions;
-  for (const NewVertex& vertex : vertices) {
-    Vec3 position = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) position += vertex.weights[k] * in.position(vertex.corners[k]);
-    out.push_back(position);
-  }
+  for (const NewVertex& vertex : vertices) out.push_back(mean_position(in, vertex));
   return out;
 }
 
