@@ -30,8 +30,8 @@ struct CutPlan {
   std::vector<AxisAlignedChart> aligned;
   Layout layout;
   std::vector<Layout> others;  ///< by other cuts, worse by eq. (11)
-  std::vector<int> mended;  ///< charts
-  double enough = 0;        ///< the objective where the paper stops, 0 = at the optimum
+  std::vector<int> mended;     ///< charts
+  double enough = 0;           ///< the objective where the paper stops, 0 = at the optimum
 };
 
 /// Throws UnmendedCharts.
