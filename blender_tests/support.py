@@ -107,12 +107,12 @@ _VALUES = {
 }
 
 
-def _attributes(mesh, but_uvs_of):
-    """All but Blender's own, of which the flags of UV maps and of elements are told by themselves."""
+def _attributes(mesh):
+    """All but Blender's own and UV maps, which are told by themselves."""
     return {
         f"attribute {attribute.name}": (attribute.domain, _column(attribute.data, *_VALUES[attribute.data_type]))
         for attribute in mesh.attributes
-        if attribute.data_type in _VALUES and attribute.name != but_uvs_of and not attribute.name.startswith(".")
+        if attribute.data_type in _VALUES and attribute.name not in mesh.uv_layers and not attribute.name.startswith(".")
     }
 
 
@@ -151,7 +151,7 @@ def snapshot(obj, but_uvs_of=None):
             held[f"uvs of {layer.name}"] = get_uvs(layer).tobytes()
     for colour in mesh.color_attributes:
         held[f"colour {colour.name}"] = _column(colour.data, "color", np.float32, 4)
-    held |= _attributes(mesh, but_uvs_of)
+    held |= _attributes(mesh)
     if mesh.shape_keys:
         for key in mesh.shape_keys.key_blocks:
             held[f"shape key {key.name}"] = (_column(key.data, "co", np.float32, 3), key.value)
