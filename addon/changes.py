@@ -16,13 +16,17 @@ def no_longer(function):
 
 
 class Watch:
-    """From register() on: before_load() before another file is opened, changed() after undo and redo, and after a mesh changed while
-    is_needed() says so."""
+    """From register() on: before_load() before another file is opened, before_undo() before undo and redo, changed() after these, and
+    after a mesh changed while is_needed() says so."""
 
-    def __init__(self, before_load, changed, is_needed):
+    def __init__(self, before_load, changed, is_needed, before_undo=lambda: None):
         @bpy.app.handlers.persistent
         def on_load(*_):
             before_load()
+
+        @bpy.app.handlers.persistent
+        def on_undo_pre(*_):
+            before_undo()
 
         @bpy.app.handlers.persistent
         def on_undo(*_):
@@ -33,7 +37,14 @@ class Watch:
             if is_needed() and any(update.is_updated_geometry for update in depsgraph.updates):
                 changed()
 
-        self._handlers = {"load_pre": on_load, "undo_post": on_undo, "redo_post": on_undo, "depsgraph_update_post": on_update}
+        self._handlers = {
+            "load_pre": on_load,
+            "undo_pre": on_undo_pre,
+            "redo_pre": on_undo_pre,
+            "undo_post": on_undo,
+            "redo_post": on_undo,
+            "depsgraph_update_post": on_update,
+        }
 
     def register(self):
         for name, function in self._handlers.items():

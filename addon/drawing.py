@@ -139,9 +139,15 @@ def _redraw(window_manager, kind):
 
 def is_over_uv_or_3d_view(context, event):
     """Whether the mouse is where a key is meant for the add-on, and not for a text or a console."""
-    return any(
-        area.type in {"IMAGE_EDITOR", "VIEW_3D"}
-        and 0 <= event.mouse_x - area.x < area.width
-        and 0 <= event.mouse_y - area.y < area.height
-        for area in context.window.screen.areas
-    )
+    areas = context.window.screen.areas
+    return any(area.type in {"IMAGE_EDITOR", "VIEW_3D"} and _is_over(area, event) for area in areas)
+
+
+def is_over_redo_panel(context, event):
+    """Whether the mouse is over Blender's panel of the last operator, in the corner of some area."""
+    regions = (region for area in context.window.screen.areas for region in area.regions)
+    return any(region.type == "HUD" and _is_over(region, event) for region in regions)
+
+
+def _is_over(place, event):
+    return 0 <= event.mouse_x - place.x < place.width and 0 <= event.mouse_y - place.y < place.height

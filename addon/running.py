@@ -82,7 +82,15 @@ class Runs(OnObjects):
             self._show_progress(context)
             self._set_timer(context)
         # While a mesh is read or written nobody may change it.
-        return {"PASS_THROUGH"} if event.type == "TIMER" or self._run.is_solving else {"RUNNING_MODAL"}
+        passes = event.type == "TIMER" or self._run.is_solving or self._is_of_adjusting(context, event)
+        return {"PASS_THROUGH"} if passes else {"RUNNING_MODAL"}
+
+    def _is_of_adjusting(self, context, event):
+        """By the mouse, in Blender's panel of the last operator: what was pressed there before the run may be let go, or goes on to
+        another value, whose run takes the place of this one."""
+        if not self._run.is_again:
+            return False
+        return event.value == "RELEASE" or "MOUSEMOVE" in event.type or drawing.is_over_redo_panel(context, event)
 
     def _step(self, context):
         try:

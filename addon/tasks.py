@@ -35,7 +35,7 @@ class Run:
 
     def __init__(self, context, options, keywords=None, beside_window=False, is_again=False):
         """`keywords`: the engine's, besides those of the options; `is_again`: of what was adjusted after a run (again.py), by a mouse
-        button that may still be down: so the window must not miss an event, as it does between steps of reading and writing."""
+        button that may still be down."""
         self.is_again = is_again
         self.problems = []  # (object's name, why nothing was done with it)
         self.errors = []  # those of the engine and of writing, after finish()
@@ -51,7 +51,7 @@ class Run:
         self._written = ()
         self._writing = None
         self._reading = Steps(self._begin(context, options))
-        if not beside_window or is_again:
+        if not beside_window:
             self._reading.finish()
 
     def _begin(self, context, options):
@@ -72,7 +72,7 @@ class Run:
             return False
         if not self.done:
             return False
-        if self.cancelled or self.is_again:  # what the latter writes, finish() writes at once
+        if self.cancelled:
             return True
         if self._writing is None:
             self._writing = Steps(self._write())
@@ -256,6 +256,12 @@ def stop_running():
         ended.stop()
 
 
+def _before_undo():
+    """What reads or writes holds meshes that undo replaces."""
+    if running is not None and not running.is_solving:
+        stop_running()
+
+
 def _doubt():
     global _in_doubt
     _in_doubt = True
@@ -267,7 +273,7 @@ def _forget():
     last = None
 
 
-_watch = Watch(_forget, _doubt, is_needed=lambda: last is not None)
+_watch = Watch(_forget, _doubt, is_needed=lambda: last is not None, before_undo=_before_undo)
 
 
 def register():

@@ -1,5 +1,6 @@
 """What the tests inside Blender share: the add-on, generated meshes, and a snapshot of everything a mesh holds."""
 
+import contextlib
 import ctypes
 import itertools
 import os
@@ -94,6 +95,27 @@ def _corner_normals(mesh):
     return _column(mesh.loops, "normal", np.float32, 3)
 
 
+#: Of an attribute's type: the property that holds its values, their type, how many there are of each element.
+_VALUES = {
+    "FLOAT": ("value", np.float32, 1),
+    "INT": ("value", np.int32, 1),
+    "BOOLEAN": ("value", bool, 1),
+    "FLOAT2": ("vector", np.float32, 2),
+    "FLOAT_VECTOR": ("vector", np.float32, 3),
+    "FLOAT_COLOR": ("color", np.float32, 4),
+    "BYTE_COLOR": ("color", np.float32, 4),
+}
+
+
+def _attributes(mesh):
+    """All but Blender's own and UV maps, which are told by themselves."""
+    return {
+        f"attribute {attribute.name}": (attribute.domain, _column(attribute.data, *_VALUES[attribute.data_type]))
+        for attribute in mesh.attributes
+        if attribute.data_type in _VALUES and attribute.name not in mesh.uv_layers and not attribute.name.startswith(".")
+    }
+
+
 def snapshot(obj, but_uvs_of=None):
     """Everything that the object and its mesh hold, as a dict of bytes and lists; object mode. The UVs of one map left out."""
     mesh = obj.data
@@ -129,9 +151,7 @@ def snapshot(obj, but_uvs_of=None):
             held[f"uvs of {layer.name}"] = get_uvs(layer).tobytes()
     for colour in mesh.color_attributes:
         held[f"colour {colour.name}"] = _column(colour.data, "color", np.float32, 4)
-    for attribute in mesh.attributes:
-        if attribute.data_type == "FLOAT":
-            held[f"attribute {attribute.name}"] = _column(attribute.data, "value", np.float32)
+    held |= _attributes(mesh)
     if mesh.shape_keys:
         for key in mesh.shape_keys.key_blocks:
             held[f"shape key {key.name}"] = (_column(key.data, "co", np.float32, 3), key.value)
@@ -141,6 +161,25 @@ def snapshot(obj, but_uvs_of=None):
 def changes(before, after):
     """Names of what two snapshots hold differently."""
     return sorted(name for name in set(before) | set(after) if before.get(name) != after.get(name))
+
+
+@contextlib.contextmanager
+def only_uvs_change(*objs):
+    """In object mode and in edit mode: of all that the objects hold, only UVs of their active maps may differ afterwards."""
+
+    def held():
+        mode = bpy.context.mode
+        if mode == "EDIT_MESH":
+            bpy.ops.object.mode_set(mode="OBJECT")
+        snapshots = [snapshot(obj, but_uvs_of=obj.data.uv_layers.active.name) for obj in objs]
+        if mode == "EDIT_MESH":
+            bpy.ops.object.mode_set(mode="EDIT")
+        return snapshots
+
+    before = held()
+    yield
+    for obj, then, now in zip(objs, before, held(), strict=True):
+        assert not changes(then, now), (obj.name, changes(then, now))
 
 
 def texture_share(*objs):

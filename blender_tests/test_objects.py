@@ -17,6 +17,7 @@ from support import (
     fresh_scene,
     get_uvs,
     messages,
+    only_uvs_change,
     packing_efficiency,
     set_uvs,
     snapshot,
@@ -55,7 +56,8 @@ class Objects(unittest.TestCase):
 
     def test_or_have_one_each(self):
         objs = add_two()
-        self.assertEqual(bpy.ops.uv.atlas_refine(atlases="OBJECT"), {"FINISHED"})
+        with only_uvs_change(*objs):
+            self.assertEqual(bpy.ops.uv.atlas_refine(atlases="OBJECT"), {"FINISHED"})
         for obj in objs:
             self.assertGreaterEqual(texture_share(obj), 0.8)
 
@@ -67,7 +69,8 @@ class Objects(unittest.TestCase):
             obj.data.materials.append(cloth)
         for polygon in objs[0].data.polygons:
             polygon.material_index = polygon.index >= 48
-        self.assertEqual(bpy.ops.uv.atlas_refine(atlases="MATERIAL"), {"FINISHED"})
+        with only_uvs_change(*objs):
+            self.assertEqual(bpy.ops.uv.atlas_refine(atlases="MATERIAL"), {"FINISHED"})
         self.assertGreaterEqual(texture_share(*objs), 1.6)
 
     def test_each_material_has_the_shape_and_the_margin_of_its_own_image(self):
@@ -148,7 +151,8 @@ class Objects(unittest.TestCase):
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.select_all(action="SELECT")
         bpy.ops.uv.select_all(action="SELECT")
-        self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
+        with only_uvs_change(*objs):
+            self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
         self.assertEqual([obj.mode for obj in objs], ["EDIT", "EDIT"])
         bpy.ops.object.mode_set(mode="OBJECT")
         self.assertGreaterEqual(texture_share(*objs), 0.8)
@@ -188,7 +192,8 @@ class Objects(unittest.TestCase):
         twin = bpy.data.objects.new("Twin", obj.data)
         bpy.context.collection.objects.link(twin)
         twin.select_set(True)
-        told = messages(bpy.ops.uv.atlas_refine)
+        with only_uvs_change(obj, twin):
+            told = messages(bpy.ops.uv.atlas_refine)
         self.assertIn("2 objects share the mesh", told)
         self.assertEqual(told.count("Texture use"), 1)
         self.assertGreaterEqual(texture_share(twin), 0.8)
@@ -221,14 +226,16 @@ class Objects(unittest.TestCase):
         # Beside an object of this file that one is refined all the same.
         own = add_mesh(name="Own")
         obj.select_set(True)
-        told = messages(bpy.ops.uv.atlas_refine)
+        with only_uvs_change(obj, own):
+            told = messages(bpy.ops.uv.atlas_refine)
         self.assertIn("Linked: the mesh is linked from a library", told)
         self.assertGreaterEqual(texture_share(own), 0.8)
 
     def test_a_failure_of_one_names_it_and_leaves_the_other_done(self):
         first, second = add_two()
         second.data.uv_layers.remove(second.data.uv_layers.active)
-        told = messages(bpy.ops.uv.atlas_refine, atlases="OBJECT")
+        with only_uvs_change(first):
+            told = messages(bpy.ops.uv.atlas_refine, atlases="OBJECT")
         self.assertIn("Second: the mesh has no UV map", told)
         self.assertGreaterEqual(texture_share(first), 0.8)
 
@@ -238,7 +245,8 @@ class Objects(unittest.TestCase):
         bpy.context.collection.objects.link(light)
         light.select_set(True)
         bpy.context.view_layer.objects.active = light
-        self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
+        with only_uvs_change(obj):
+            self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
         self.assertGreaterEqual(texture_share(obj), 0.8)
 
 
@@ -334,6 +342,34 @@ class AllOrNothing(unittest.TestCase):
                 self.assertEqual([changes(held, snapshot(obj)) for obj, held in zip(self.objs, before, strict=True)], [[], []])
 
 
+class Stacks(unittest.TestCase):
+    """Three charts of one shape on each other, and another."""
+
+    def setUp(self):
+        fresh_scene()
+        charts = [shapes.grid(6, 3, scale=0.1, bend=1.2) for _ in range(3)]
+        self.obj = add_mesh(shapes.join(*charts, shapes.grid(4, 4, scale=0.1, origin=(0.0, 0.5), bend=0.7)))
+
+    def charts(self):
+        return uvs_of(self.obj)[: 3 * 72].reshape(3, 72, 2)
+
+    def test_charts_on_each_other_stay_so_and_that_is_told(self):
+        with only_uvs_change(self.obj):
+            told = messages(bpy.ops.uv.atlas_refine)
+        self.assertIn("2 charts: on another chart of the same shape, kept there", told)
+        first, *others = self.charts()
+        for other in others:
+            self.assertLess(np.abs(other - first).max(), 1e-6)
+
+    def test_or_get_places_of_their_own(self):
+        with only_uvs_change(self.obj):
+            self.assertEqual(bpy.ops.uv.atlas_refine(stacks="SEPARATE"), {"FINISHED"})
+        self.assertGreaterEqual(texture_share(self.obj), 0.8)
+        self.assertEqual(bpy.ops.uv.atlas_refine_select_problems(kinds={"OVERLAPPING"}), {"FINISHED"})
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertFalse(any(polygon.select for polygon in self.obj.data.polygons))
+
+
 class Tiles(unittest.TestCase):
     def setUp(self):
         fresh_scene()
@@ -359,7 +395,8 @@ class Tiles(unittest.TestCase):
 
     def test_with_a_tiled_image_charts_stay_in_their_tiles(self):
         self.tiled_image(0)
-        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7), {"FINISHED"})
+        with only_uvs_change(self.obj):
+            self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7), {"FINISHED"})
         uvs = uvs_of(self.obj)
         self.assert_within(uvs[:72], (0, 0))
         self.assert_within(uvs[72:], (1, 0))
@@ -374,13 +411,15 @@ class Tiles(unittest.TestCase):
 
     def test_or_only_the_active_one_changes(self):
         self.tiled_image(1)
-        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7, tiles="ACTIVE"), {"FINISHED"})
+        with only_uvs_change(self.obj):
+            self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7, tiles="ACTIVE"), {"FINISHED"})
         uvs = uvs_of(self.obj)
         self.assertEqual(uvs[:72].tobytes(), self.before[:72].tobytes())
         self.assert_within(uvs[72:], (1, 0))
 
     def test_without_one_all_go_to_the_first(self):
-        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7), {"FINISHED"})
+        with only_uvs_change(self.obj):
+            self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7), {"FINISHED"})
         self.assertLess(uvs_of(self.obj).max(), 1)
 
     def test_measure_tells_of_each_tile(self):
@@ -390,7 +429,8 @@ class Tiles(unittest.TestCase):
         self.assertIn("Loose, 1002: Texture use 10 %", told)
 
     def test_unless_each_is_to_keep_its_own(self):
-        self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7, tiles="EACH"), {"FINISHED"})
+        with only_uvs_change(self.obj):
+            self.assertEqual(bpy.ops.uv.atlas_refine(pe_bound=0.7, tiles="EACH"), {"FINISHED"})
         self.assertGreater(uvs_of(self.obj)[72:, 0].min(), 1)
 
 

@@ -2,12 +2,13 @@
 
 import sys
 import time
+from dataclasses import replace
 
 import bmesh
 import bpy
 import shapes
-from driver import enter_edit_mode, running, tasks
-from support import MODULE, add_mesh
+from driver import STEP_SECONDS, enter_edit_mode, running, tasks
+from support import MODULE, add_mesh, get_uvs
 
 MOST_SECONDS = 0.2  # 0.1 s is promised, on a machine that has nothing else to do
 QUADS = 183**2  # of each of three charts
@@ -85,6 +86,61 @@ def test_the_window_does_not_wait_for_cuts_across_faces():
         yield from measured(mode, 0.95, **how)
         bpy.ops.object.mode_set(mode="OBJECT")
         assert len(obj.data.polygons) > 3 * QUADS
+        bpy.data.objects.remove(obj)
+
+
+def adjusted(pe_bound):
+    """As by Adjust Last Operation, without the panel."""
+    again, operators, properties = (sys.modules[f"{MODULE}.{name}"] for name in ("again", "operators", "properties"))
+    options = replace(properties.to_options(bpy.context.scene.atlas_refine), pe_bound=pe_bound)
+    again.ask(bpy.context, operators.trade_off.picked(options, None))
+    yield running
+
+
+def test_the_window_does_not_wait_for_what_is_adjusted():
+    for mode in ("object mode", "edit mode"):
+        bpy.context.view_layer.update()
+        obj = large_mesh()
+        bpy.context.view_layer.objects.active = obj
+        if mode == "edit mode":
+            enter_edit_mode()
+        tasks().last = None
+        with Turns("atlas_refine_again") as turns:
+            yield from adjusted(0.7)
+            yield lambda: not running()
+        print(f"adjusted, {mode}: the window waits {max(turns.seconds):.3f} s at once", flush=True)
+        assert max(turns.seconds) < MOST_SECONDS
+        assert tasks().last[0].result.bound_met
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.data.objects.remove(obj)
+
+
+def test_undo_while_what_was_adjusted_is_read_or_written():
+    """As another value brings it: meshes that are half read or written are let go before undo replaces them."""
+    for reads in (True, False):
+        bpy.context.view_layer.update()
+        obj = large_mesh()
+        before = get_uvs(obj.data.uv_layers.active).tobytes()
+        bpy.context.view_layer.objects.active = obj
+        enter_edit_mode()
+        bpy.ops.ed.undo_push(message="Made a mesh")
+        bpy.ops.ed.undo_push(message="Something")
+        meshes = len(bpy.data.meshes)
+        yield from adjusted(0.7)
+        run = tasks().running
+        if not reads:
+            yield lambda run=run: run.done
+            yield STEP_SECONDS
+        assert running(), "over too soon"
+        assert not run.is_solving
+        with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
+            bpy.ops.ed.undo()
+        assert tasks().running is None
+        yield 0.5
+        assert len(bpy.data.meshes) <= meshes
+        bpy.ops.object.mode_set(mode="OBJECT")
+        obj = bpy.data.objects["Large"]
+        assert get_uvs(obj.data.uv_layers.active).tobytes() == before
         bpy.data.objects.remove(obj)
 
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "input/face_areas.h"
+#include "input/keep_corners_apart.h"
 #include "input/pair_uses.h"
 #include "input/places.h"
 #include "input/uv_noise.h"
@@ -169,6 +170,7 @@ EdgeJoins join_edges(const Atlas& atlas, Joining joining, const std::vector<int>
   const std::vector<EdgeUse> uses = edge_uses(atlas, joins.places, threads);
   join_pairs(atlas, joining, uses, groups, joins);
   orient_faces(atlas, joins);
+  keep_corners_apart(atlas, joins);
   for_each_edge(uses, [&](EdgeUses edge) { count_seam(atlas, edge, joins); });
   return joins;
 }
