@@ -19,6 +19,9 @@ from .core.request import prepare
 from .core.steps import to_its_end
 from .core.words import counted, titled
 
+#: From so many times as dense as another on a chart has another density: what the engine tells of charts, too.
+UNEQUAL = 1.1
+
 
 @dataclass(frozen=True)
 class Done:
@@ -81,6 +84,23 @@ class Atlas:
         others = of_another_shape(texture, used)
         if others:
             yield f"packed for {texture.name}; of another shape: {', '.join(others)}. By Material each has its own"
+
+    def holds_unequal_densities(self):
+        """Whether the run ended where it began, as the use was there, though charts have other densities than the one for all that was
+        asked for."""
+        if self.options.density != "EQUAL" or self.request.arguments["relax"]:
+            return False
+        try:
+            result = self.job.result()
+        except engine.AtlasRefineError:
+            return False
+        densities = [chart.density_after for chart in result.charts if chart.fate == "refined"]
+        return result.intervention == "unchanged" and bool(densities) and max(densities) > UNEQUAL * min(densities)
+
+    def start_for_equal_densities(self, threads, keywords):
+        """Anew, though the use is there."""
+        self.request.arguments["relax"] = True
+        self.start(threads, keywords)
 
     def start(self, threads, keywords):
         name = self.title if len(self.parts) == 1 else ""

@@ -181,7 +181,7 @@ def _chart_properties():
         "stacks": _choice(
             "stacks",
             "Stacks",
-            "Charts of one shape that lie on each other, mirrored ones too",
+            "Charts of one shape and one material that lie on each other, mirrored ones too",
             [
                 ("KEEP", "Keep", "They stay on each other and share their part of the texture"),
                 ("SEPARATE", "Separate", "Each gets a place of its own"),
@@ -198,7 +198,12 @@ def _chart_properties():
                     "Each chart keeps the relative size it has, as far as bending leaves it that. A Texture Use that only charts blown up "
                     "would reach is not reached, and the message names the one that is",
                 ),
-                ("EQUAL", "Equal", "The same number of texels for every part of the surface"),
+                (
+                    "EQUAL",
+                    "Equal",
+                    "The same number of texels for every part of the surface, at the scale that objects have in the scene. Charts bend for "
+                    "that also where the wanted use is there already",
+                ),
                 (
                     "VALUE",
                     "Pixels per Metre",

@@ -87,7 +87,11 @@ class Run:
     def done(self):
         """Starts the next atlas where one has come to its end."""
         while self.is_solving and self.atlases[self._at].job.done:
-            self._at = len(self.atlases) if self.cancelled or self.finishing else self._at + 1
+            ends = self.cancelled or self.finishing
+            if not ends and self.atlases[self._at].holds_unequal_densities():
+                self.atlases[self._at].start_for_equal_densities(self._threads, self._keywords)
+                continue
+            self._at = len(self.atlases) if ends else self._at + 1
             if self._at < len(self.atlases):
                 self._start_next()
         return self._reading.done and not self.is_solving

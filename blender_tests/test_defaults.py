@@ -4,6 +4,7 @@ import unittest
 
 import bpy
 import numpy as np
+import shapes
 from support import add_mesh, fresh_scene, get_uvs, messages, set_uvs, texture_share
 
 
@@ -90,6 +91,23 @@ class Defaults(unittest.TestCase):
         before = get_uvs(obj.data.uv_layers.active).tobytes()
         self.assertEqual(bpy.ops.uv.atlas_refine(), {"FINISHED"})
         self.assertEqual(get_uvs(obj.data.uv_layers.active).tobytes(), before)
+
+    def test_equal_densities_are_made_where_the_use_is_there_already(self):
+        """With all of them kept nothing changes."""
+        sizes = (0.06, 0.054)
+        charts = [shapes.grid(8, 8, scale=size, origin=(0.01 + 0.5 * k, 0.01)) for k, size in enumerate(sizes)]
+        obj = add_mesh(shapes.join(*charts))
+        layer = obj.data.uv_layers.active
+        before = get_uvs(layer)
+        bpy.ops.uv.atlas_refine(pe_bound=0.4)
+        self.assertEqual(get_uvs(layer).tobytes(), before.tobytes())
+        bpy.ops.uv.atlas_refine(pe_bound=0.4, density="EQUAL")
+        first, second = (np.ptp(corners, axis=0).prod() for corners in np.split(get_uvs(layer), 2))
+        self.assertAlmostEqual(first / second, 1.0, delta=0.02)
+        self.assertGreaterEqual(texture_share(obj), 0.4)
+        after = get_uvs(layer).tobytes()
+        bpy.ops.uv.atlas_refine(pe_bound=0.4, density="EQUAL")
+        self.assertEqual(get_uvs(layer).tobytes(), after)
 
     def test_the_report_is_in_words(self):
         obj = add_mesh()

@@ -434,6 +434,49 @@ class Tiles(unittest.TestCase):
         self.assertGreater(uvs_of(self.obj)[72:, 0].min(), 1)
 
 
+class StacksOfSeveralObjects(unittest.TestCase):
+    """Two objects whose charts lie on each other, as each was unwrapped by itself."""
+
+    def setUp(self):
+        fresh_scene()
+        self.objs = [add_mesh(name="First"), add_mesh(name="Second")]
+        self.objs[0].select_set(True)
+        for obj in self.objs:
+            obj.data.materials.append(bpy.data.materials.get("Skin") or bpy.data.materials.new("Skin"))
+
+    def refine(self, **options):
+        """True where the charts of both still lie on each other; else none does."""
+        before = [snapshot(obj, but_uvs_of="UVMap") for obj in self.objs]
+        self.assertEqual(bpy.ops.uv.atlas_refine(**options), {"FINISHED"})
+        for obj, held in zip(self.objs, before, strict=True):
+            self.assertEqual(changes(held, snapshot(obj, but_uvs_of="UVMap")), [])
+        share = texture_share(*self.objs)
+        is_stack = bool(np.allclose(uvs_of(self.objs[0]), uvs_of(self.objs[1]), atol=1e-5))
+        self.assertGreaterEqual(share, 1.6 if is_stack else 0.8)
+        if not is_stack:
+            self.assertLess(share, 1.0)
+        return is_stack
+
+    def test_charts_of_one_material_stay_on_each_other(self):
+        self.assertTrue(self.refine())
+
+    def test_those_of_different_materials_show_different_textures(self):
+        self.objs[1].data.materials[0] = bpy.data.materials.new("Cloth")
+        self.assertFalse(self.refine())
+
+    def test_one_density_is_that_of_objects_of_another_scale_too(self):
+        self.objs[1].scale = (2.0, 2.0, 2.0)
+        bpy.context.view_layer.update()
+        self.assertTrue(self.refine(density="KEEP"))
+        for obj in self.objs:
+            set_uvs(obj.data.uv_layers.active, shapes.loose()[3])
+        self.assertFalse(self.refine(density="EQUAL"))
+        areas = [
+            packing_efficiency(obj.data, obj.data.uv_layers.active) * np.prod(np.ptp(uvs_of(obj), axis=0)) for obj in self.objs
+        ]
+        self.assertAlmostEqual(areas[1] / areas[0], 4.0, delta=0.2)
+
+
 class Names(unittest.TestCase):
     """What is told by a name: maps, groups, attributes."""
 

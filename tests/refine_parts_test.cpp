@@ -11,6 +11,7 @@
 #include "atlas_refine/refine.h"
 #include "output_atlas.h"
 #include "shapes.h"
+#include "sheets.h"
 #include "small_atlases.h"
 
 namespace atlas_refine {
@@ -118,6 +119,25 @@ TEST(Parts, FacesWithoutFiniteUVsKeepTheirBitsOutsideTheAtlas) {
     for (int k = 1; k <= other.corner_count(); ++k)
       EXPECT_TRUE(same_bits(atlas.corner_uvs[atlas.corner_count() - k], result.corner_uvs[corners - k]));
   }
+}
+
+/// A sheet, bent in the UVs, one of whose rows is so high in space and in the UVs.
+Atlas with_thin_row(double height) {
+  Atlas atlas = sheet(7, 7);
+  for (Vec3& p : atlas.positions) {
+    if (p.y() > 0.35) p.y() -= 0.1 - height;
+  }
+  for (int c = 0; c < atlas.corner_count(); ++c) atlas.corner_uvs[c] = atlas.positions[atlas.corner_vertices[c]].head<2>();
+  return bent_into_arc(atlas, 1.5);
+}
+
+TEST(Parts, AChartWithFacesTooSmallToBeStoredIsLeftAndTheOthersAreRefined) {
+  const Atlas atlas = shapes::combine({with_thin_row(1e-8), moved(with_thin_row(0.05), {3, 0})});
+  const RefineResult result = refine(atlas, {.pe_bound = 0.7, .stored = Stored::Float32});
+  EXPECT_EQ(result.charts[0].fate, Fate::Left);
+  EXPECT_EQ(result.charts[1].fate, Fate::Refined);
+  EXPECT_TRUE(says(result.warnings, "too small to be stored"));
+  EXPECT_GE(result.after.pe, 0.7);
 }
 
 TEST(Parts, OnlyNaNIsRefusedByName) {
@@ -299,6 +319,18 @@ TEST(Stacks, OfOtherPolygonsArePartedOnlyWhereTheyAreCut) {
   ASSERT_EQ(result.intervention, Intervention::Cut);
   EXPECT_NE(result.charts[1].fate, Fate::Stacked);
   EXPECT_TRUE(says(result.warnings, "placed apart"));
+}
+
+TEST(Stacks, OfDifferentGroupsGetPlacesOfTheirOwn) {
+  const Atlas one = star();
+  const Atlas atlas = shapes::combine({one, one, one});
+  std::vector<int> groups(atlas.face_count(), 0);
+  std::fill(groups.begin() + 2 * one.face_count(), groups.end(), 1);
+  const RefineResult result = refine(atlas, {.pe_bound = 0.7, .stack_groups = groups});
+  EXPECT_EQ(result.charts[1].fate, Fate::Stacked);
+  EXPECT_EQ(result.charts[2].fate, Fate::Refined);
+  EXPECT_TRUE(validate(part(atlas, result.corner_uvs, one.face_count(), atlas.face_count())).valid());
+  EXPECT_THROW(refine(atlas, {.stack_groups = {0, 1}}), RefineError);
 }
 
 TEST(Stacks, AreSeparatedWhereAsked) {

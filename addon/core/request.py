@@ -135,6 +135,8 @@ def prepare(engine, parts, options, canvases=ONE_CANVAS, metres=1.0, moves=True)
     used = [(canvases[canvas], tile) for canvas, tile in places.codes[first]]
     textures = tuple(canvas.texture for canvas, _ in used)
     arguments = {**options.engine_arguments(textures[0]), **_arguments_of(joined, locked)}
+    if options.stacks == "KEEP" and len(numbers := _stack_groups(joined, options)) > 0:
+        arguments["stack_groups"] = numbers
     if "locked" in arguments and options.aspect == "FREE":  # what stays where it is, is somewhere in a texture
         arguments.update(box_aspect=1.0, in_texture=True)
     densities = _without_locked(options.uv_densities(textures, metres * joined.unit), groups, arguments.get("locked"))
@@ -158,6 +160,15 @@ def _choose(engine, part, options):
     left_out, locked = stay(charts, part.hidden, part.selected, part.pinned)
     part.taken = ~left_out
     return locked
+
+
+def _stack_groups(joined, options):
+    """A number for each face, where there are several: charts lie on each other on purpose where they show one texture, in one size
+    where that is asked for."""
+    scales = [np.full(len(part.taken), round(part.scale if options.density != "KEEP" else 1.0, 3)) for part in joined.parts]
+    keys = np.stack([joined.of_faces([part.materials for part in joined.parts]), joined.of_faces(scales)])
+    kinds, numbers = np.unique(keys, axis=1, return_inverse=True)
+    return numbers.ravel() if kinds.shape[1] > 1 else []
 
 
 def _without_locked(densities, groups, locked):

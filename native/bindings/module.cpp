@@ -23,7 +23,7 @@ namespace {
 const std::string kRefineKeywords =
     "pe_bound seams box_aspect in_texture gap gap_unit max_distortion max_stretch max_boundary_growth seam_cost effort trade_off "
     "point relax best_effort density uv_density stored sigma candidates omega until_input reference importance seed threads name "
-    "cut open_closed stacks collapsed rotate align_axes triangulate groups group_origins "
+    "cut open_closed stacks stack_groups collapsed rotate align_axes triangulate groups group_origins "
     "group_aspects group_gaps group_densities group_names keep_shape locked no_seam prefer_seam triangles";
 
 constexpr const char* kArraysDoc = R"(
@@ -78,6 +78,7 @@ importance       (F,) numbers > 0: each face's weight in the objective, only rat
 cut              "split" (default): cuts divide the faces they cross; "edges": only edges of the input become seams
 open_closed      charts without a border, or with a handle, may be opened along edges; default False: they are left as they are
 stacks           charts of one shape that lie on each other: "keep" (default) them so, or "separate" them
+stack_groups     (F,) integers: charts of different ones are no stack, as they show different textures; None = all may be
 collapsed        charts whose UVs are a point or a line: "leave" (default) them as they are, or "embed" them
 rotate           turns of charts that are moved: "any" (default), "90" or "none"
 align_axes       turn moved charts whose longest border runs straight so that it lies on an axis; default False

@@ -89,6 +89,7 @@ void add_chart_readers(std::map<std::string, Reader>& table) {
   table["align_axes"] = flag_reader(&RefineOptions::align_axes);
   table["triangulate"] = flag_reader(&RefineOptions::triangulate);
   table["groups"] = array_reader(&RefineOptions::groups, &to_numbers);
+  table["stack_groups"] = array_reader(&RefineOptions::stack_groups, &to_numbers);
   table["group_origins"] = array_reader(&RefineOptions::group_origins, &to_points);
   table["group_aspects"] = numbers_reader(&RefineOptions::group_aspects);
   table["group_densities"] = numbers_reader(&RefineOptions::group_densities);

@@ -15,6 +15,7 @@
 #include "reduce/kept_density.h"
 #include "report/certify.h"
 #include "report/locked.h"
+#include "report/note_repairs.h"
 #include "report/texture.h"
 #include "support/parallel.h"
 #include "whole.h"
@@ -90,13 +91,27 @@ struct CertifiedSolution {
   CertifiedAtlas atlas;
 };
 
+/// Where it is single precision that a chart has no result in, the others may have one without it.
+CertifiedAtlas certified_or_unmended(const Refinement& run, const CutAtlas& atlas, const Gap& gap) {
+  try {
+    return certify(run.input, atlas, gap, run.asked);
+  } catch (const RefineError& error) {
+    if (error.code() != ErrorCode::NotCertified) throw;
+    UnmendedCharts lost;
+    for (const int chart : charts_lost_to_rounding(run.input, atlas, run.asked))
+      lost.charts.push_back({chart, "has faces that are too small to be stored with an area"});
+    if (lost.charts.empty()) throw;
+    throw lost;
+  }
+}
+
 CertifiedSolution certified(const Refinement& run, Solution solution, const ProgressRange& range) {
   run.journal.begin_stage("certify", range.part(0.96, 0.98));
   if (run.monitor.finishing()) solution.ended = Ended::Stopped;
   restore_shapes(run.input.set.charts, freedom_of(run.input.set, run.options), solution.atlas);
   // Of the whole texture, where the gap was that of the box within its border.
   solution.gap = at_size(run.input, border_of(run.asked) > 0 ? *run.asked.gap : solution.gap);
-  CertifiedAtlas atlas = certify(run.input, solution.atlas, solution.gap, run.asked);
+  CertifiedAtlas atlas = certified_or_unmended(run, solution.atlas, solution.gap);
   return {std::move(solution), std::move(atlas)};
 }
 

@@ -105,6 +105,19 @@ def test_larger_objects_get_more_of_one_atlas():
     assert large / small == pytest.approx(4.0, rel=0.3)
 
 
+def test_charts_of_other_materials_or_where_one_density_is_asked_for_of_other_scales_are_no_stack():
+    def groups(**options):
+        parts = [make_part(name="A", materials=np.repeat([0, 1], [48, 54])), make_part(name="B", scale=2.0)]
+        return prepare(atlas_refine, parts, Options(gap="AUTO", **options)).arguments.get("stack_groups")
+
+    first, second = np.split(groups(density="KEEP"), 2)
+    assert np.array_equal(np.unique(first), [0, 1])
+    assert np.array_equal(second, np.full(102, first[0]))
+    assert len(np.unique(groups(density="EQUAL"))) == 3
+    assert groups(stacks="SEPARATE") is None
+    assert "stack_groups" not in prepare(atlas_refine, [make_part()], Options(gap="AUTO")).arguments
+
+
 def test_groups_by_material_across_meshes():
     parts = [make_part(name="A"), make_part(name="B")]
     parts[0].materials[48:] = 1

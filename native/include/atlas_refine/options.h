@@ -119,6 +119,8 @@ struct RefineOptions {
   /// otherwise, and are left as they are, by name.
   bool open_closed = false;
   Stacks stacks = Stacks::Keep;
+  /// One number per face, or empty. Charts of different ones that lie on each other are no stack: they show different textures.
+  std::vector<int> stack_groups;
   Collapsed collapsed = Collapsed::Leave;
   Rotate rotate = Rotate::Any;
   bool align_axes = false;   ///< a moved chart whose longest border runs straight is turned so that it lies on an axis

@@ -41,6 +41,18 @@ bool is_point_or_line(const Chart& chart, double longest, double box_side) {
   return length <= kCollapsed * box_side || area <= kCollapsed * length * std::max(length, box_side);
 }
 
+/// Stacks among those of these charts that may be stacked on each other.
+std::vector<Follower> find_stacks_in_groups(const std::vector<Chart>& placed, const std::vector<int>& charts,
+                                            const std::vector<int>& stack_groups, double tolerance) {
+  std::map<int, std::vector<int>> of_group;
+  for (const int k : charts) of_group[group_of(placed[k], stack_groups)].push_back(k);
+  std::vector<Follower> out;
+  for (const auto& [group, own] : of_group) {
+    for (Follower& follower : find_stacks(placed, own, tolerance)) out.push_back(std::move(follower));
+  }
+  return out;
+}
+
 /// The fold that each chart was part of, -1 where none.
 std::vector<int> folds_of_charts(const ChartSet& set) {
   std::vector<int> out(set.charts.size(), -1);
@@ -90,7 +102,8 @@ Participants take_part(const ChartSet& set, const RefineOptions& options, const 
   for (auto& [group, charts] : groups) {
     std::vector<char> follows(set.charts.size(), 0);
     if (stacks) {
-      for (Follower& follower : find_stacks(placed, leaders_first(set, charts, options.locked), kOnEachOther * side)) {
+      const std::vector<int> in_order = leaders_first(set, charts, options.locked);
+      for (Follower& follower : find_stacks_in_groups(placed, in_order, options.stack_groups, kOnEachOther * side)) {
         // What was one chart, folded, was not put on itself on purpose.
         if (fold[follower.chart] >= 0 && fold[follower.chart] == fold[follower.leader]) continue;
         if (apart.contains(follower.chart)) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "atlas_refine/error.h"
 #include "geometry/predicates.h"
@@ -265,6 +266,21 @@ CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap
                          }});
   out.after.distortion_to_input = to_input;
   return out;
+}
+
+std::vector<int> charts_lost_to_rounding(const InputAtlas& input, const CutAtlas& atlas, const RefineOptions& options) {
+  const auto uvs = stored_uvs(meshes_of(atlas), atlas.frame, input.origin, options);
+  const auto positive = [](const std::vector<Vec2>& at, const Triangle& t) {
+    return orientation(at[t[0]], at[t[1]], at[t[2]]) > 0;
+  };
+  std::set<int> out;
+  for (std::size_t p = 0; p < atlas.pieces.size(); ++p) {
+    const Chart& mesh = atlas.pieces[p].mesh;
+    const bool lost = std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
+                                  [&](const Triangle& t) { return positive(mesh.uvs, t) && !positive(uvs[p], t); });
+    if (lost) out.insert(mesh.number);
+  }
+  return {out.begin(), out.end()};
 }
 
 std::vector<ChartReport> reports_of_input(const InputAtlas& input) {

@@ -26,6 +26,10 @@ struct CertifiedAtlas {
 /// RefineError(NotCertified).
 CertifiedAtlas certify(const InputAtlas& input, const CutAtlas& atlas, const Gap& gap, const RefineOptions& options);
 
+/// Numbers of the charts with faces that have an area until their UVs are rounded as they will be stored: smaller ones than
+/// single precision tells apart.
+std::vector<int> charts_lost_to_rounding(const InputAtlas& input, const CutAtlas& atlas, const RefineOptions& options);
+
 /// Reports of the input's charts where nothing was done to them.
 std::vector<ChartReport> reports_of_input(const InputAtlas& input);
 

@@ -49,6 +49,7 @@ void check_locked_density(const RefineOptions& options) {
 void check_kept(const Atlas& atlas, const RefineOptions& options) {
   check_size(atlas, options.groups, "groups must hold one number per face");
   for (const int group : options.groups) require(group >= 0, "group numbers must not be negative");
+  check_size(atlas, options.stack_groups, "stack groups must hold one number per face");
   for (const Vec2& origin : options.group_origins) require(origin.allFinite(), "group origins must be finite");
   for (const double aspect : options.group_aspects) require(is_aspect(aspect), "aspects of groups must lie in [0.01, 100]");
   require(options.group_gaps.empty() || options.gap, "gaps of groups need a gap");
