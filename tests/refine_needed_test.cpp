@@ -155,6 +155,13 @@ TEST(Needed, WhereNoCutsKeepTheLimitRectanglesDo) {
   EXPECT_NE(result.fallbacks[0].find("cut into rectangles"), std::string::npos);
 }
 
+TEST(Needed, AboveTheLimitWhatPromisesNothingIsForecastAsWell) {
+  RefineOptions options = needed_within(1.0001);
+  options.pe_bound = 0.85;
+  options.best_effort = true;
+  EXPECT_GT(refine(shapes::mesh(shapes::s_shape(), 0.12, 0), options).cuts->tried, 16);
+}
+
 // Teeth longer than the box: no neck shortens them.
 TEST(Needed, WhereNothingKeepsTheLimitRectanglesMayBeNearest) {
   shapes::Polygon comb = shapes::comb(4);
