@@ -155,6 +155,28 @@ TEST(Needed, WhereNoCutsKeepTheLimitRectanglesDo) {
   EXPECT_NE(result.fallbacks[0].find("cut into rectangles"), std::string::npos);
 }
 
+TEST(Needed, AboveTheLimitWhatPromisesNothingIsForecastAsWell) {
+  RefineOptions options = needed_within(1.0001);
+  options.pe_bound = 0.85;
+  options.best_effort = true;
+  EXPECT_GT(refine(shapes::mesh(shapes::s_shape(), 0.12, 0), options).cuts->tried, 16);
+}
+
+// Teeth longer than the box: no neck shortens them.
+TEST(Needed, WhereNothingKeepsTheLimitRectanglesMayBeNearest) {
+  shapes::Polygon comb = shapes::comb(4);
+  for (Vec2& corner : comb.outer) corner.y() *= 10;
+  const Atlas atlas = shapes::mesh(comb, 0.2, 0);
+  RefineOptions options = needed_within(1.0001);
+  options.box_aspect = 1;
+  options.best_effort = true;
+  const RefineResult nearest = refine(atlas, options);
+  options.seams = Seams::Rectangles;
+  options.max_distortion.reset();
+  const double by_rectangles = refine(atlas, options).after.distortion;
+  EXPECT_LE(nearest.after.distortion, by_rectangles + 1e-9);
+}
+
 TEST(Needed, WithoutALimitCutsAreMadeWhereTheyPay) {
   const Atlas atlas = flat_s();
   RefineOptions options = needed();

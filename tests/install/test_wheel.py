@@ -66,7 +66,7 @@ def test_the_wheel_holds_the_package_and_nothing_else(wheel):
         (metadata,) = (archive.read(name).decode() for name in archive.namelist() if name.endswith("/METADATA"))
     (module,) = (name for name in names if name.startswith("atlas_refine/_atlas_refine.cpython-"))
     (library,) = (name for name in names if name.startswith("atlas_refine/libOpenMeshCore.so"))
-    package = {f"atlas_refine/{name}" for name in ("__init__.py", "_atlas_refine.pyi", "py.typed")}
+    package = {f"atlas_refine/{name}" for name in ("__init__.py", "_atlas_refine.pyi", "packing.py", "py.typed")}
     assert names == package | {module, library}
     assert f"Version: {wheel.name.split('-')[1]}\n" in metadata
     assert "Requires-Dist: numpy" in metadata

@@ -116,6 +116,16 @@ def test_a_bound_out_of_reach_is_an_error_and_best_effort_is_not():
     assert atlas_refine.validate(*arrays[:3], result.corner_uvs).valid
 
 
+def test_what_packing_efficiency_costs():
+    arrays = shapes.loose()
+    curve = atlas_refine.packing_curve(*arrays, bounds=(0.9, 0.6, 0.8, 0.999), gap=0.01)
+    assert [bound for bound, _ in curve] == [0.6, 0.8, 0.9]
+    distortion = [e_d for _, e_d in curve]
+    assert distortion == sorted(distortion)
+    last = atlas_refine.refine(*arrays, pe_bound=0.9, gap=0.01, relax=True)
+    assert distortion[-1] == last.after.distortion
+
+
 def test_progress_rises_and_other_threads_run_meanwhile():
     seen, ticks, stop = [], [0], threading.Event()
 

@@ -36,6 +36,7 @@ from ._atlas_refine import (
     start,
     validate,
 )
+from .packing import packing_curve
 
 __all__ = [
     "AtlasRefineError",
@@ -60,6 +61,7 @@ __all__ = [
     "find_problems",
     "group_by_tile",
     "measure",
+    "packing_curve",
     "refine",
     "start",
     "validate",

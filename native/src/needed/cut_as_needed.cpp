@@ -180,8 +180,7 @@ class Search {
   void look_at_rectangles() {
     auto rectangles = trials_.rectangles(rest_);
     if (!rectangles || rectangles->trial.growth > most_growth()) return;
-    const bool counts = options_.trade_off || !wish_.has_limit() || wish_.is_enough(rectangles->trial);
-    if (counts) found_.squeezed.push_back(std::move(*rectangles));
+    found_.squeezed.push_back(std::move(*rectangles));
   }
 
   double most_growth() const { return options_.max_boundary_growth.value_or(kAnyGrowth); }

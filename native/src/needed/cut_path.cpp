@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "needed/symmetric_cuts.h"
 
@@ -17,6 +18,7 @@ constexpr double kLeastStep = 0.015;  // more than that, as growth
 constexpr double kRemoved = 0.2;      // of what a cut saved when it was added is lost without it, where that pays
 // Of the excess: what promises to be no worse than that may be better where the path is thorough.
 constexpr double kSurprise = 0.05;
+constexpr int kMostRisks = 16;      // forecasts of such where the path is not, but nothing else is left
 constexpr double kStretch = 0.7;    // the part of stretch in what the path goes by, where that is limited
 constexpr std::size_t kPruned = 3;  // cuts: of fewer none is left out
 
@@ -34,7 +36,7 @@ Budget budget_of(Effort effort) {
     case Effort::Fast:
       return {20, 8, 2, 3, 40, 2};
     case Effort::Normal:
-      return {30, 14, 4, 4, 96, 3};
+      return {30, 24, 4, 4, 96, 3};
     case Effort::Best:
       return {60, 40, 8, 8, 320, 6};
   }
@@ -66,6 +68,7 @@ bool CutPath::advance(double most_growth) {
     for (const CutSet* set : ahead(kEverywhere)) {
       if (set->trial.growth > reach) least = std::min(least, set->trial.growth);
     }
+    if (!std::isfinite(least) && !std::exchange(is_stuck_, true) && takes_risks()) continue;
     if (!std::isfinite(least) || least > most_growth) break;
     reach = std::max(reach, kStep * least);
   }
@@ -115,7 +118,7 @@ std::vector<CutSet*> CutPath::ahead(double reach) {
   const bool may_forecast = this->may_forecast();
   for (CutSet& set : sets_) {
     if (set.is_out || set.trial.growth <= passed_ || set.trial.growth > reach || (!set.is_forecast && !may_forecast)) continue;
-    const double least_gain = set.is_forecast || !is_thorough_ ? kLeastGain : -kSurprise;
+    const double least_gain = set.is_forecast || !takes_risks() ? kLeastGain : -kSurprise;
     if (foreseen(set) < best_ - least_gain) out.push_back(&set);
   }
   std::stable_sort(out.begin(), out.end(), [&](const CutSet* a, const CutSet* b) { return rate_of(*a) > rate_of(*b); });
@@ -123,6 +126,8 @@ std::vector<CutSet*> CutPath::ahead(double reach) {
 }
 
 bool CutPath::may_forecast() const { return found_.tried < budget_of(options_.effort).forecasts; }
+
+bool CutPath::takes_risks() const { return is_thorough_ || (is_stuck_ && risks_ < kMostRisks); }
 
 CutSet* CutPath::next(double reach) {
   const Budget budget = budget_of(options_.effort);
@@ -151,6 +156,7 @@ void CutPath::forecast(const std::vector<CutSet*>& sets) {
   for (std::size_t k = 0; k < sets.size(); ++k) {
     CutSet& set = *sets[k];
     ++found_.tried;
+    risks_ += is_stuck_;
     set.is_out = !trials[k] || trials[k]->growth <= passed_;
     if (set.is_out) continue;
     set.trial = *trials[k];
@@ -169,6 +175,7 @@ void CutPath::pass(CutSet& set) {
     set.excess = measured(squeezed->trial);
   }
   best_ = std::min(best_, set.excess);
+  is_stuck_ = false;
   if (!may_forecast()) return;
   if (squeezed) return expand(squeezed->trial, set.excess, squeezed);
   if (trials_.places_anew()) expand(set.trial, set.excess, nullptr);

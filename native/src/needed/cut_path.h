@@ -48,6 +48,7 @@ class CutPath {
   double rate_of(const CutSet& set) const;
   std::vector<CutSet*> ahead(double reach);
   bool may_forecast() const;
+  bool takes_risks() const;
   CutSet* next(double reach);
   void forecast(const std::vector<CutSet*>& sets);
   void pass(CutSet& set);
@@ -59,6 +60,8 @@ class CutPath {
   const CutTrials& trials_;
   const RefineOptions& options_;
   bool is_thorough_;
+  bool is_stuck_ = false;  ///< nothing that is left promises to save anything
+  int risks_ = 0;          ///< forecasts where that was so
   ProgressRange rest_;
   Outcomes& found_;
   std::deque<CutSet> sets_;

@@ -43,6 +43,14 @@ std::vector<Chart> charts_at_density(const Refinement& run) {
   return charts;
 }
 
+std::string why_rectangles(const RefineOptions& asked, const Trial& trial) {
+  const DistortionLimits limits = limits_of(asked);
+  if (!limits.any()) return "cut into rectangles: other cuts do not hold the bound, or at a higher price";
+  return limits.used(trial.distortion, trial.stretch) <= 1
+             ? "cut into rectangles: no fewer seams were found that keep distortion within the limit"
+             : "cut into rectangles: other cuts miss the limit by more";
+}
+
 }  // namespace
 
 void Bias::learn(const SqueezedTrial& squeezed) {
@@ -195,9 +203,7 @@ std::optional<SqueezedTrial> CutTrials::rectangles(const ProgressRange& range) c
     measure(run_, out->solution, out->trial);
     out->trial.foreseen = out->trial.distortion;
     keep_words(before, *out);
-    const bool has_limit = run_.asked.max_distortion || run_.asked.max_stretch;
-    out->fallbacks.push_back(has_limit ? "cut into rectangles: no fewer seams were found that keep distortion within the limit"
-                                       : "cut into rectangles: other cuts do not hold the bound, or at a higher price");
+    out->fallbacks.push_back(why_rectangles(run_.asked, out->trial));
   }
   journal.back_to(before);
   return out;
