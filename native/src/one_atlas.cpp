@@ -91,12 +91,14 @@ struct CertifiedSolution {
   CertifiedAtlas atlas;
 };
 
-/// Where it is single precision that a chart has no result in, the others may have one without it.
+/// Where it is single precision that a chart has no result in, the others may have one without it. Instead of rectangles whole
+/// charts are tried first.
 CertifiedAtlas certified_or_unmended(const Refinement& run, const CutAtlas& atlas, const Gap& gap) {
   try {
     return certify(run.input, atlas, gap, run.asked);
   } catch (const RefineError& error) {
-    if (error.code() != ErrorCode::NotCertified) throw;
+    const bool falls_back = run.options.seams == Seams::Rectangles && !atlas.seams.empty();
+    if (error.code() != ErrorCode::NotCertified || falls_back) throw;
     UnmendedCharts lost;
     for (const int chart : charts_lost_to_rounding(run.input, atlas, run.asked))
       lost.charts.push_back({chart, "has faces that are too small to be stored with an area"});
