@@ -39,9 +39,16 @@ bool of_one_piece(const Boundary& boundary, const PointEdge& pair) {
   return boundary.chart[pair.point] == boundary.chart[pair.edge];
 }
 
+double weight(const ReduceModel& model, const PointEdge& pair) {
+  return model.point_weight[pair.point] * model.edge_weight[pair.edge];
+}
+
 ContactDerivatives derivatives(const ReduceModel& model, const ReduceState& state, const Contact& contact, double unit) {
   const auto [point, start, end] = vertices_of(model.boundary, contact.pair);
-  return contact_derivatives(state.x[point], state.x[start], state.x[end], contact.floor_fraction * unit, contact.range);
+  ContactDerivatives d =
+      contact_derivatives(state.x[point], state.x[start], state.x[end], contact.floor_fraction * unit, contact.range);
+  if (const double part = weight(model, contact.pair); part < 1) d.scale(part);
+  return d;
 }
 
 /// Adds the gradient and the Hessian by a contact's vertices where their nodes, and the box that takes them along, have it.
@@ -181,17 +188,18 @@ double barrier(const ReduceModel& model, const ReduceState& state, const Contact
   // Most are too far apart to be felt.
   const auto felt = gathered<double>(static_cast<int>(contacts.size()), kGrain, [&](int begin, int end, auto& values) {
     for (int k = begin; k < end; ++k) {
-      const double value = log_barrier_value(slack(model, state, contacts[k], unit));
+      const double value = weight(model, contacts[k].pair) * log_barrier_value(slack(model, state, contacts[k], unit));
       if (value != 0) values.push_back(value);
     }
   });
   double sum = std::accumulate(felt.begin(), felt.end(), 0.0);
   if (!model.has_box) return sum;
-  for (int v : model.boundary.vertex) {
+  for (int b = 0; b < model.boundary.size(); ++b) {
+    const int v = model.boundary.vertex[b];
     if (hangs_on_box(model, v)) continue;
     for (int axis = 0; axis < 2; ++axis) {
-      sum += log_barrier_value(state.x[v][axis] / model.range) +
-             log_barrier_value((state.box[axis] - state.x[v][axis]) / model.range);
+      sum += model.point_weight[b] * (log_barrier_value(state.x[v][axis] / model.range) +
+                                      log_barrier_value((state.box[axis] - state.x[v][axis]) / model.range));
     }
   }
   return sum;
@@ -264,12 +272,14 @@ void add_contacts(const ReduceModel& model, const ReduceState& state, const Cont
   system.gradient[model.box_node()] += on_box_node(model, stiffness * unit_slope * unit_gradient);
 }
 
-void add_walls(const ReduceModel& model, const ReduceState& state, double stiffness, BlockSystem& system) {
+void add_walls(const ReduceModel& model, const ReduceState& state, double full_stiffness, BlockSystem& system) {
   const int box_node = model.box_node();
   const double aspect = model.aspect, range = model.range;
   Vec2 sides = Vec2::Zero(), sides_stiff = Vec2::Zero();  // by width and height
-  for (int v : model.boundary.vertex) {
+  for (int b = 0; b < model.boundary.size(); ++b) {
+    const int v = model.boundary.vertex[b];
     if (hangs_on_box(model, v)) continue;
+    const double stiffness = full_stiffness * model.point_weight[b];
     Vec2 gradient;
     Mat2 own = Mat2::Zero(), coupling = Mat2::Zero();  // rows: vertex; columns of the coupling: sides
     for (int axis = 0; axis < 2; ++axis) {

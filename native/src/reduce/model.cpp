@@ -142,6 +142,29 @@ DirichletSums surface_sums(const std::vector<Chart>& charts, const ReduceModel& 
 
 }  // namespace
 
+/// Where points lie close together, each pushed as others are, they would push with far more than the stretch of boundary that
+/// they stand for, and crush the small triangles there: the narrow faces of a bevel stop the steps of all. So what is much
+/// shorter than boundary edges are in the mean, by their lengths, counts by its length.
+void weigh_boundary(ReduceModel& model) {
+  constexpr double kShort = 0.1;   // of the mean
+  constexpr double kLeast = 1e-9;  // borders may not cross, however short
+  const Boundary& boundary = model.boundary;
+  std::vector<double> lengths(boundary.size());
+  std::vector<int> edges(boundary.loop_length.size(), 0);
+  for (int e = 0; e < boundary.size(); ++e) {
+    const double end = boundary.next[e] > e ? boundary.arc[boundary.next[e]] : boundary.loop_length[boundary.loop[e]];
+    lengths[e] = end - boundary.arc[e];
+    ++edges[boundary.loop[e]];
+  }
+  for (int e = 0; e < boundary.size(); ++e) {
+    const int loop = boundary.loop[e];
+    const double full = kShort * boundary.loop_length[loop] / edges[loop];
+    const auto weight = [&](double length) { return length < full ? std::max(kLeast, length / full) : 1; };
+    model.edge_weight.push_back(weight(lengths[e]));
+    model.point_weight.push_back(weight(0.5 * (lengths[e] + lengths[boundary.previous[e]])));
+  }
+}
+
 ReduceModel make_model(const ReduceProblem& problem) {
   ReduceModel model;
   model.objective = problem.objective ? *problem.objective : make_objective(problem.charts);
@@ -160,6 +183,7 @@ ReduceModel make_model(const ReduceProblem& problem) {
   model.boundary = make_boundary(problem.charts, model.first_vertex);
   for (double& arc : model.boundary.arc) arc /= model.objective.unit;
   for (double& length : model.boundary.loop_length) length /= model.objective.unit;
+  weigh_boundary(model);
   if (problem.warm)
     place_in_box(*problem.warm, model);
   else if (problem.frame.x() > 0)

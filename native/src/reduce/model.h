@@ -28,6 +28,8 @@ struct ReduceModel {
   std::vector<Triangle> surface_triangles;  ///< of all pieces, guards too
   std::vector<double> masses;               ///< one per node: a third of the triangles around it; 1 for the box
   Boundary boundary;                        ///< all fixed pieces count as one: the first of them
+  std::vector<double> point_weight;         ///< of the barrier, in (0, 1], per boundary vertex,
+  std::vector<double> edge_weight;          ///< and per boundary edge: less where the boundary is made of short stretches
   Freedoms freedom;                         ///< one per piece; empty where all bend
   std::vector<int> node;                    ///< per vertex: what it moves with
   std::vector<Vec2> lever;  ///< per vertex of a fixed piece: its position / height of the box; empty where none is fixed

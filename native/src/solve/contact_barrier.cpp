@@ -74,6 +74,15 @@ BarrierValue log_barrier(double x) {
   return {-u * u * l, -2 * u * l - u * u / x, -2 * l - 4 * u / x + u * u / (x * x)};
 }
 
+void ContactDerivatives::scale(double factor) {
+  value *= factor;
+  slope *= factor;
+  for (Vec2& part : gradient) part *= factor;
+  for (auto& row : hessian) {
+    for (Mat2& part : row) part *= factor;
+  }
+}
+
 ContactDerivatives contact_derivatives(const Vec2& point, const Vec2& edge_start, const Vec2& edge_end, double floor,
                                        double range, bool project) {
   ContactDerivatives out;

@@ -30,6 +30,8 @@ struct ContactDerivatives {
   double slope = 0;  ///< d value / d distance
   std::array<Vec2, 3> gradient;
   std::array<std::array<Mat2, 3>, 3> hessian;  ///< positive semidefinite: the full 6x6 is projected
+
+  void scale(double factor);
 };
 
 /// Barrier on (distance - floor) / range. The distance must be above the floor.
