@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "atlas_refine/refine.h"
 #include "input/split_charts.h"
@@ -17,6 +18,11 @@ namespace atlas_refine::testing {
 inline Atlas with_corner_uvs(Atlas atlas, const std::vector<Vec2>& uvs) {
   atlas.corner_uvs = uvs;
   return atlas;
+}
+
+/// Whether one of the warnings or fallbacks has these words.
+inline bool says(const std::vector<std::string>& lines, const std::string& words) {
+  return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) { return line.find(words) != std::string::npos; });
 }
 
 /// The gap of measured charts as a fraction of the unit of `gap`, on the box that `aspect` asks for.

@@ -15,6 +15,8 @@
 namespace atlas_refine {
 namespace {
 
+using testing::says;
+
 /// A pipe of radius 0.5: a strip of `rings` quads along and eight around, and two caps of one face, all of one density.
 Atlas pipe(double length, int rings = 1) {
   constexpr int kSides = 8;
@@ -51,11 +53,6 @@ double growth(const RefineResult& result, int chart) {
 
 /// How much denser the caps are than the strip, against what they were.
 double growth_of_caps(const RefineResult& result) { return std::max(growth(result, 1), growth(result, 2)) / growth(result, 0); }
-
-bool says(const std::vector<std::string>& warnings, const std::string& words) {
-  return std::any_of(warnings.begin(), warnings.end(),
-                     [&](const std::string& said) { return said.find(words) != std::string::npos; });
-}
 
 TEST(Densities, CapsOfAStiffPipeAreNotBlownUpToHoldTheBound) {
   for (const double length : {10.0, 20.0, 40.0}) {

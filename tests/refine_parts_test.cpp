@@ -10,12 +10,15 @@
 #include "atlas_refine/inspect.h"
 #include "atlas_refine/refine.h"
 #include "output_atlas.h"
+#include "refine_checks.h"
 #include "shapes.h"
 #include "sheets.h"
 #include "small_atlases.h"
 
 namespace atlas_refine {
 namespace {
+
+using testing::says;
 
 const double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -53,10 +56,6 @@ Atlas part(const Atlas& atlas, const std::vector<Vec2>& uvs, int first, int end)
     out.face_offsets.push_back(out.corner_count());
   }
   return out;
-}
-
-bool says(const std::vector<std::string>& lines, const std::string& words) {
-  return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) { return line.find(words) != std::string::npos; });
 }
 
 TEST(Parts, ACollapsedChartStaysAsItIsAndIsCounted) {

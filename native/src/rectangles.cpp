@@ -22,9 +22,6 @@
 namespace atlas_refine {
 namespace {
 
-// From so many pieces on another layout takes long and brings next to nothing.
-constexpr std::size_t kHundreds = 100;
-
 /// How many edges that must stay whole the cuts run along or across.
 int forbidden_edges_cut(const CutPlan& plan, const CutAtlas& cut) {
   const std::vector<SidePrices>& prices = plan.prices;
@@ -136,7 +133,7 @@ std::optional<ReducedPieces> reduced_in(const Refinement& run, const CutPlan& pl
 /// Of the layouts that eq. (11) likes best the one whose pieces have the least distortion for their seams.
 ReducedPieces reduced_in_best_layout(const Refinement& run, const CutPlan& plan, const CutAtlas& cut) {
   ReducedPieces best = reduce_pieces(run, plan, plan.layout, cut);
-  const bool one_is_enough = plan.enough > 0 || limits_of(run.options).any() || cut.pieces.size() > kHundreds;
+  const bool one_is_enough = plan.enough > 0 || limits_of(run.options).any() || cut.pieces.size() > kHundredsOfPieces;
   for (const Layout& layout : plan.others) {
     if (run.monitor.finishing() || (one_is_enough && best.holds())) break;
     auto trial = reduced_in(run, plan, layout);

@@ -33,9 +33,7 @@ constexpr double kCarriedChange = 6e-6;  // nearer to the optimum less changes a
 constexpr int kCoarsenings = 3;          // after the first, each followed by
 constexpr int kFineIterations = 12;      // of all triangles, unless it is the last
 constexpr int kFewIterations = 3;        // take the deformation back within coarse triangles
-// Hundreds of pieces may be jammed and slide on and on, by next to nothing: each reduction ends after so many iterations.
-constexpr std::size_t kHundreds = 100;
-constexpr int kMostIterations = 150;
+constexpr int kMostIterations = 150;     // of each reduction of hundreds of pieces
 // Fewer triangles are packed in other ways besides:
 constexpr std::size_t kReduced = 6000;  // in as many as so many triangles are reduced in, some tenths of a second,
 constexpr std::size_t kMostWays = 7;    // and at most these
@@ -79,7 +77,7 @@ struct Task {
 };
 
 ReduceResult reduce(const Refinement& run, const Task& task, const Reduction& reduction) {
-  const int most = task.charts.size() > kHundreds ? kMostIterations : ReduceProblem::kMostIterations;
+  const int most = task.charts.size() > kHundredsOfPieces ? kMostIterations : ReduceProblem::kMostIterations;
   const ReduceProblem problem{.charts = task.charts,
                               .objective = &task.objective,
                               .gap = beyond_rounding(reduction.gap, run.options.stored),

@@ -9,6 +9,10 @@
 
 namespace atlas_refine {
 
+/// From so many pieces on these may be jammed and slide on and on, by next to nothing; another layout takes long and brings as
+/// little.
+constexpr std::size_t kHundredsOfPieces = 100;
+
 struct ReducedPieces {
   CutAtlas atlas;
   Layout layout;              ///< that it is cut and was packed by

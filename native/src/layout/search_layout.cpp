@@ -262,7 +262,7 @@ Layout layout_of(const Candidate& candidate, const Round& round) {
   return out;
 }
 
-/// Cuts of one length that pack alike are one: told by their trails, they may be the same in another order, or mirror images.
+/// Cuts of one length into as many pieces are one: told by their trails they may differ in order, or be mirror images.
 bool cut_alike(const Layout& a, const Layout& b) {
   constexpr double kRounding = 1e-9;
   return a.pieces.size() == b.pieces.size() && std::abs(a.growth - b.growth) < kRounding;
@@ -325,7 +325,7 @@ std::vector<Layout> search_layouts(const std::vector<AxisAlignedChart>& aligned,
   const PhaseScope scope(Phase::Layout);
   const std::vector<Decomposition> boxes = boxes_of(aligned, sources);
   std::vector<Layout> best;
-  const auto holds = [&] { return !best.empty() && best.front().pe >= pe_target(options); };
+  const auto holds = [&] { return best.front().pe >= pe_target(options); };  // after a search
   const auto search = [&](int number, const Gap& gap, int extra_corners) {
     Round round{number, gap, extra_corners, {}, boxes, {}};
     add_quad_meshes(round, aligned, sources, options.prices);

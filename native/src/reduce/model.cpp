@@ -144,7 +144,7 @@ DirichletSums surface_sums(const std::vector<Chart>& charts, const ReduceModel& 
 
 /// Where points lie close together, each pushed as others are, they would push with far more than the stretch of boundary that
 /// they stand for, and crush the small triangles there: the narrow faces of a bevel stop the steps of all. So what is much
-/// shorter than boundary edges are in the mean, by their lengths, counts by its length.
+/// shorter than its loop's edges in the mean counts by its length.
 void weigh_boundary(ReduceModel& model) {
   constexpr double kShort = 0.1;   // of the mean
   constexpr double kLeast = 1e-9;  // borders may not cross, however short
