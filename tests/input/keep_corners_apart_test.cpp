@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "input/split_charts.h"
 #include "output_atlas.h"
 #include "refine_checks.h"
 #include "sheets.h"
+#include "small_atlases.h"
 
 namespace atlas_refine {
 namespace {
@@ -87,6 +90,18 @@ TEST(CornersKeptApart, WhatHasNoSuchFaceStaysJoined) {
     EdgeJoins after = before;
     keep_corners_apart(atlas, after);
     EXPECT_EQ(after.partners, before.partners);
+  }
+}
+
+TEST(KeepCornersApart, WhereABevelRunsOutItsEndIsNotSewnTogether) {
+  // Two faces side by side that come to a point, where each has an edge without length between vertices of its own.
+  for (const auto& [left, middle, right] : {std::array{0, 2, 1}, std::array{0, 1, 2}, std::array{2, 0, 1}}) {
+    const Atlas atlas = flat_atlas({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, -0.1, 0}, {1, 0, 0}, {1, 0.1, 0}},
+                                   {{3, 4, middle, left}, {4, 5, right, middle}});
+    const ChartSet set = split_charts(atlas);
+    ASSERT_EQ(set.charts.size(), 1u);
+    EXPECT_EQ(set.charts[0].vertex_count(), 6);
+    EXPECT_EQ(set.charts[0].boundary_loops.front().size(), 6u);
   }
 }
 

@@ -29,12 +29,28 @@ class Fans {
       if (way.empty()) continue;
       const auto least =
           std::min_element(way.begin(), way.end(), [](const Crossing& a, const Crossing& b) { return a.cost() < b.cost(); });
-      joins_.partners[joins_.partners[least->edge]] = -1;
-      joins_.partners[least->edge] = -1;
+      undo(least->edge);
     }
   }
 
+  /// Undoes the join of an edge without length that has one vertex of the mesh at one end and two at the other.
+  void part_run_out(int edge) {
+    const int partner = joins_.partners[edge];
+    if (partner < 0) return;
+    const auto vertices = [&](int corner) {
+      return std::minmax(atlas_.corner_vertices[corner], atlas_.corner_vertices[joins_.next_corner(atlas_, corner)]);
+    };
+    const std::pair<int, int> own = vertices(edge), other = vertices(partner);
+    const auto has = [](const std::pair<int, int>& ends, int v) { return ends.first == v || ends.second == v; };
+    if (has(own, other.first) != has(own, other.second)) undo(edge);
+  }
+
  private:
+  void undo(int edge) {
+    joins_.partners[joins_.partners[edge]] = -1;
+    joins_.partners[edge] = -1;
+  }
+
   int place(int corner) const { return joins_.places[atlas_.corner_vertices[corner]]; }
 
   int previous(int corner) const {
@@ -75,7 +91,10 @@ void keep_corners_apart(const Atlas& atlas, EdgeJoins& joins) {
     const int first = atlas.face_offsets[f], end = atlas.face_offsets[f + 1];
     for (int c = first; c < end; ++c) {
       const int next = joins.next_corner(atlas, c);
-      if (place(c) == place(next)) fans.part(c, next);
+      if (place(c) == place(next)) {
+        fans.part_run_out(c);
+        fans.part(c, next);
+      }
       if (end - first == 4 && c + 2 < end && place(c) == place(c + 2)) fans.part(c, c + 2);
     }
   }
