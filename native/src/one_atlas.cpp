@@ -306,10 +306,10 @@ void warn_of_density(const InputAtlas& input, const RefineOptions& options, cons
 void warn_of_end(const Solution& solution, Journal& journal) {
   if (solution.held > 0) journal.warnings.push_back(words_on_held(solution.held));
   if (solution.outgrown > 0) journal.warnings.push_back("the bound was not reached; " + words_on_outgrown(solution.outgrown));
-  const char* why = solution.ended == Ended::Stalled           ? "stalled"
-                    : solution.ended == Ended::OutOfIterations ? "ran out of iterations"
-                    : solution.ended == Ended::Stopped         ? "was stopped"
-                                                               : nullptr;
+  const char* why = solution.ended == Ended::Stalled && solution.outgrown == 0 ? "stalled"
+                    : solution.ended == Ended::OutOfIterations                 ? "ran out of iterations"
+                    : solution.ended == Ended::Stopped                         ? "was stopped"
+                                                                               : nullptr;
   if (why) journal.warnings.push_back(std::string("the optimisation ") + why + ": the distortion may not be at its least");
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geometry/guards.h"
 #include "geometry/rest_triangle.h"
@@ -13,6 +14,11 @@ namespace {
 
 /// Of the area of a guard that no measure counts: enough that it bends before it stops the others, too little to be felt.
 constexpr double kBarrierShare = 0.01;
+
+/// Of a triangle, as a part of the mean weight. How stiff a triangle is does not depend on its size, but how far its corners may
+/// move before it flips does: many times smaller than those beside it, it would stop their steps. All together gain at most this
+/// part of the objective.
+constexpr double kLeastWeight = 1e-3;
 
 /// The area on the surface, or in the texture where a chart's density asks for more of that: what cost next to nothing for the
 /// texels that it takes would grow until the bound holds. So would a triangle without area on the surface: the shape that stands
@@ -51,22 +57,34 @@ Mat2 wanted_shape(const ObjectiveRequest& request, std::size_t p, const Triangle
   return rest.area > 0 ? rest.inverse_edges : own;
 }
 
+void raise_least(std::vector<double>& weights) {
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const double least = kLeastWeight * sum / static_cast<double>(weights.size());
+  for (double& weight : weights) weight = std::max(least, weight);
+}
+
+void normalise(std::vector<double>& weights) {
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (double& weight : weights) weight /= sum;
+}
+
 }  // namespace
 
 Objective make_objective(const std::vector<Chart>& pieces, const ObjectiveRequest& request) {
   Objective out;
   out.unit = std::sqrt(surface_area(pieces));
   const std::vector<double> factors = length_factors(pieces, request.density);
-  double sum = 0;
+  std::vector<double> importance;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     for_each_element(pieces[p], [&](const Triangle& triangle, const RestTriangle& shape, double share, int face) {
       out.inverse_edges.push_back(out.unit / factors[p] * wanted_shape(request, p, triangle, shape.inverse_edges));
-      const double importance = request.importance.empty() ? 1 : request.importance[face];
-      out.weight.push_back(area_to_weigh(shape, factors[p]) * (share > 0 ? share : kBarrierShare) * importance);
-      sum += out.weight.back();
+      out.weight.push_back(area_to_weigh(shape, factors[p]) * (share > 0 ? share : kBarrierShare));
+      if (!request.importance.empty()) importance.push_back(request.importance[face]);
     });
   }
-  for (double& weight : out.weight) weight /= sum;
+  raise_least(out.weight);
+  for (std::size_t e = 0; e < importance.size(); ++e) out.weight[e] *= importance[e];
+  normalise(out.weight);
   return out;
 }
 

@@ -12,8 +12,10 @@ namespace atlas_refine {
 /// lengths are those of the surface / `unit`, so that the surface has area 1.
 struct Objective {
   std::vector<Mat2> inverse_edges;  ///< of the wanted shape, as RestTriangle::inverse_edges
-  std::vector<double> weight;  ///< >= 0, sum 1: areas, on the surface or those wanted if larger, times share times importance
-  double unit = 1;             ///< sqrt(area of the surface)
+  /// >= 0, sum 1: areas, on the surface or those wanted if larger, times share, none less than a part of the mean; times
+  /// importance.
+  std::vector<double> weight;
+  double unit = 1;  ///< sqrt(area of the surface)
 };
 
 /// What an Objective is made from. All but `importance` have one entry per piece.
