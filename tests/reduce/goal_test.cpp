@@ -8,6 +8,7 @@
 
 #include "charts.h"
 #include "shapes.h"
+#include "small_atlases.h"
 
 namespace atlas_refine {
 namespace {
@@ -94,6 +95,20 @@ TEST(Goal, UniformImportanceChangesNothing) {
     for (std::size_t t = 0; t < plain.weight.size(); ++t)
       EXPECT_NEAR(objective.weight[t], plain.weight[t], 1e-12 * plain.weight[t]);
   }
+}
+
+TEST(Goal, TinyTrianglesWeighAThousandthOfTheMeanOneUnlessTheyAreUnimportant) {
+  const double tiny = 1e-4;
+  const std::vector<Chart> charts =
+      charts_of(flat_atlas({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1 + tiny, 0, 0}, {1 + tiny, tiny, 0}},
+                           {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}));
+  const auto weight_of_tiny = [&](double importance) {
+    RefineOptions options;
+    options.importance = {1, 1, importance, 1};
+    return goal_of(charts, whole_atlas(charts), options).weight[2];
+  };
+  EXPECT_NEAR(weight_of_tiny(1), 1e-3 / 4, 1e-6);
+  EXPECT_NEAR(weight_of_tiny(1e-3), 1e-6 / 4, 1e-9);
 }
 
 }  // namespace
