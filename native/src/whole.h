@@ -22,7 +22,8 @@ WholeCharts whole_charts(const Refinement& run, const ProgressRange& range);
 /// The least intervention that holds the bound, or, where none does, the best that was found. Throws UnmendedCharts.
 Solution refine_whole(const Refinement& run, const ProgressRange& range);
 
-/// E_d that the charts would have without cuts at the bound; nothing where that is above `most`, or some chart overlaps itself.
+/// E_d that the charts would have without cuts at the bound; nothing where that is above `most`, or a chart cannot be made
+/// valid.
 std::optional<double> distortion_without_cuts(const Refinement& run, double most);
 
 }  // namespace atlas_refine

@@ -16,6 +16,13 @@ double usable_density(const Chart& chart) {
   return density > 0 && std::isfinite(density) ? density : 1;
 }
 
+/// 0 where the UVs tell none: most of them are flipped or without area, or what is left has no shape, so that its area is that of
+/// something else.
+double density_told_by_uvs(const Chart& chart) {
+  if (mostly_bad(chart, bad_triangles(chart)) || !(sums_of_good(chart).best_energy() < kLine)) return 0;
+  return usable_density(chart);
+}
+
 std::vector<Vec2> input_uvs(const Piece& piece, const std::vector<Chart>& input) {
   std::vector<Vec2> out;
   for (const Support& support : piece.supports) out.push_back(value_at(support, input[piece.chart].uvs));
@@ -51,10 +58,10 @@ std::vector<Vec2> nearest_similar(const std::vector<Vec2>& shape, const std::vec
 
 std::vector<double> wanted_density(const std::vector<Chart>& input, Density density) {
   if (density == Density::Equal) return std::vector<double>(input.size(), 1);
-  std::vector<double> out;  // 0 where the UVs tell none
+  std::vector<double> out;
   double wanted = 0, surface = 0;
   for (const Chart& chart : input) {
-    out.push_back(mostly_bad(chart, bad_triangles(chart)) ? 0 : usable_density(chart));
+    out.push_back(density_told_by_uvs(chart));
     if (out.back() == 0) continue;
     wanted += out.back() * out.back() * chart.surface.area();
     surface += chart.surface.area();
