@@ -104,5 +104,18 @@ TEST(Hangs, AGapThatLeavesNoRoomIsRefused) {
   EXPECT_NE(std::string(error.what()).find("leaves no room for 150 charts"), std::string::npos) << error.what();
 }
 
+TEST(Hangs, WhereTheGapTakesTheRoomThatIsSaid) {
+  std::vector<Atlas> strips(30, strip(12));  // as cards of hair are
+  for (std::size_t k = 0; k < strips.size(); ++k) {
+    for (Vec2& uv : strips[k].corner_uvs) uv.y() += 2.0 * static_cast<double>(k);
+  }
+  const Atlas atlas = shapes::combine(strips);
+  RefineOptions options{.pe_bound = 0.85, .box_aspect = 1, .gap = Gap{.value = 0.008}, .density = Density::Keep};
+  options.keep_shape.assign(atlas.face_count(), 1);
+  const std::string said = testing::refusal(atlas, options).what();
+  EXPECT_NE(said.find("with the gap around them the charts would take 10"), std::string::npos) << said;
+  EXPECT_NE(said.find(" % of the room: a smaller one leaves more"), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace atlas_refine

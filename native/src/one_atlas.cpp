@@ -16,18 +16,13 @@
 #include "report/certify.h"
 #include "report/locked.h"
 #include "report/note_repairs.h"
+#include "report/shortfall.h"
 #include "report/texture.h"
 #include "support/parallel.h"
 #include "whole.h"
 
 namespace atlas_refine {
 namespace {
-
-bool within_limits(const RefineOptions& options, const Measures& of) {
-  constexpr double kStored = 1e-5;  // of stretch, that rounding of stored UVs adds to small triangles
-  const bool kept = !options.max_distortion || of.distortion <= *options.max_distortion * (1 + 1e-9);
-  return kept && (!options.max_stretch || of.stretch_99 <= *options.max_stretch * (1 + kStored));
-}
 
 /// How much larger the UVs are to be; 1 where nothing is asked.
 double growth_asked(const InputAtlas& input, const RefineOptions& options) {
@@ -213,48 +208,6 @@ CertifiedSolution solve_within_stretch(const Refinement& run, const ProgressRang
   return solve(run, range.part(0.5, 1));
 }
 
-/// Empty where there are none.
-std::string words_on_limits(const RefineOptions& options) {
-  const std::string distortion = options.max_distortion ? "a distortion of " + number_text("%g", *options.max_distortion) : "";
-  const std::string stretch = options.max_stretch ? "a stretch of " + number_text("%g", *options.max_stretch) : "";
-  return distortion + (distortion.empty() || stretch.empty() ? "" : " and ") + stretch;
-}
-
-/// How far charts may not grow.
-std::string too_dense() { return "over " + number_text("%g", kMostDense) + " times the texel density of the others"; }
-
-/// Why a bound is not held where densities are kept; `charts`: those that would outgrow them.
-std::string words_on_outgrown(int charts) {
-  return "for more, " + std::to_string(charts) + (charts == 1 ? " chart" : " charts") + " would grow to " + too_dense();
-}
-
-/// Where it is held as these were only moved.
-std::string words_on_held(int charts) {
-  const std::string who =
-      charts == 1 ? "1 chart kept its shape: bent, it" : std::to_string(charts) + " charts kept their shapes: bent, they";
-  return who + " would have grown to " + too_dense() + ", which are stretched instead";
-}
-
-/// Why the result is not what was asked for; empty where it is.
-std::string shortfall(const InputAtlas& input, const RefineOptions& options, const Measures& after, int outgrown) {
-  const std::string figures = "packing efficiency " + number_text("%.4f", after.pe_fixed_aspect) + " at E_d " +
-                              number_text("%.4f", after.distortion) +
-                              (options.max_stretch ? ", stretch " + number_text("%.4f", after.stretch_99) : "");
-  const std::string limit = words_on_limits(options);
-  if (!within_limits(options, after)) {
-    const std::string growth = options.seams == Seams::Needed && options.max_boundary_growth
-                                   ? " and a boundary growth of " + number_text("%g", *options.max_boundary_growth)
-                                   : "";
-    return message_prefix(input.atlas) + "no atlas within " + limit + growth + " was found; the least distorted one has " +
-           figures;
-  }
-  if (after.pe_fixed_aspect >= options.pe_bound) return "";
-  return message_prefix(input.atlas) + "the bound " + number_text("%g", options.pe_bound) + " was not reached" +
-         (limit.empty() ? "" : " within " + limit) + "; the best found is " + figures +
-         words_on_kept(input.set.charts, freedom_of(input.set, options), options.box_aspect) +
-         (outgrown > 0 ? "; " + words_on_outgrown(outgrown) : "");
-}
-
 Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, CertifiedSolution certified) {
   Solution& solution = certified.solution;
   Outcome out{.before = input.measures,
@@ -269,7 +222,7 @@ Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, Certif
               .cuts = std::move(solution.cuts),
               .charts = std::move(certified.atlas.charts),
               .pieces = std::move(certified.atlas.pieces)};
-  const std::string missed = shortfall(input, options, out.after, solution.outgrown);
+  const std::string missed = shortfall(input, options, out.after, certified.atlas.stored, solution.outgrown);
   out.bound_met = missed.empty();
   // Where cuts are allowed limits of distortion are a goal like the bound, else they are what the effort must keep.
   const bool acceptable = options.seams == Seams::Needed || within_limits(options, out.after);
@@ -335,7 +288,7 @@ Outcome all_locked(const InputAtlas& input, const RefineOptions& options, bool h
   Outcome out = unchanged(input, options);
   out.bound_met = holds;
   if (!holds && !(options.best_effort && within_limits(options, input.measures)))
-    throw RefineError(ErrorCode::BoundNotReached, "input", shortfall(input, options, input.measures, 0));
+    throw RefineError(ErrorCode::BoundNotReached, "input", shortfall(input, options, input.measures, input.set.charts, 0));
   return out;
 }
 

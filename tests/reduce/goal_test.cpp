@@ -71,6 +71,20 @@ TEST(Goal, ChartsThatAreMostlyFlippedAreToHaveTheMeanDensity) {
   EXPECT_EQ(wanted[2], 1);
 }
 
+TEST(Goal, ChartsWhoseUvsHaveNoShapeAreToHaveTheMeanDensity) {
+  std::vector<Chart> charts = of_two_scales();
+  const auto alone = wanted_density(charts, Density::Keep);
+  const auto slivers = charts_of(flat_atlas({{0, 0, 0}, {1, 0, 0}, {1, 1e-6, 0}, {0, 1e-6, 0}}, {{0, 1, 2}, {0, 2, 3}}));
+  for (const double crossed : {0.0, 0.1}) {
+    charts.resize(2);
+    charts.push_back(slivers[0]);
+    charts[2].uvs = {{0, 0}, {0.1, 0}, {0.1, 0.1}, {crossed, -0.1 * crossed}};  // as wide as it is long, one face flipped or not
+    const auto wanted = wanted_density(charts, Density::Keep);
+    EXPECT_NEAR(wanted[0], alone[0], 1e-12);
+    EXPECT_EQ(wanted[2], 1);
+  }
+}
+
 TEST(Goal, TheInputAsReferenceLeavesTheDensityToItsOption) {
   std::vector<Chart> charts = of_two_scales();
   for (Vec2& uv : charts[0].uvs) uv.x() *= 1.5;
