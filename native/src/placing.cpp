@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "atlas_refine/error.h"
 #include "measure/certificate.h"
@@ -38,10 +39,45 @@ double taken(const Refinement& run, const std::vector<Chart>& charts, const Gap&
   return pe * (1 + 0.5 * gap.length(sides_of_area(box, run.options.box_aspect)) * uv_perimeter(charts) / uv_area(charts));
 }
 
+PlaceOptions place_options(const Refinement& run, const Gap& gap, double good_enough, PackSearch search) {
+  return {.gap = gap,
+          .box_aspect = run.options.box_aspect,
+          .target_pe = good_enough,
+          .most_pe = most_pe(run),
+          .seed = run.options.seed,
+          .threads = run.threads,
+          .search = search,
+          .rotate = run.options.rotate,
+          .align_axes = run.options.align_axes};
+}
+
+/// With the largest of the gaps with which rows hold the bound: that is told sooner than by any search.
+std::optional<Placing> in_rows(const Refinement& run, const std::vector<Chart>& charts, const std::vector<Gap>& gaps) {
+  std::optional<Placing> best;
+  for (auto gap = gaps.rbegin(); gap != gaps.rend(); ++gap) {
+    const PlaceOptions options = place_options(run, *gap, run.options.pe_bound, PackSearch::Thorough);
+    auto placed = place_in_rows(charts, options, run.monitor);
+    if (!placed) break;
+    Placing placing{{.charts = std::move(*placed)}, *gap};
+    if (!holds_bound(run, placing.placed, kStoredSpare)) break;
+    best = std::move(placing);
+  }
+  return best;
+}
+
 /// More than the packer fills of a box with thousands of charts.
 bool takes_too_much(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap) {
   constexpr double kMostTaken = 0.9;
   return !none_bends(freedom) && !any_fixed(freedom) && taken(run, charts, gap, run.options.pe_bound) > kMostTaken;
+}
+
+/// Whether a search may find room for a wider gap than rows have: where sizes are mixed it fills more than they do.
+bool may_take_wider_gap(const Refinement& run, const std::vector<Chart>& charts, const std::vector<Gap>& gaps,
+                        const Placing& rows) {
+  constexpr double kMostFound = 0.88;  // of the box, in atlases of 1000 and 5000 charts
+  return std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) {
+    return gap.value > rows.gap.value && taken(run, charts, gap, run.options.pe_bound) <= kMostFound;
+  });
 }
 
 /// Without those gaps with which little is left at the bound of what the placement leaves free: thousands of charts would jam.
@@ -96,15 +132,7 @@ bool rather_moves(const Refinement& run, std::size_t charts) { return charts >= 
 
 PlacedCharts place(const Refinement& run, const std::vector<Chart>& charts, const Freedoms& freedom, const Gap& gap,
                    double good_enough, PackSearch search) {
-  const PlaceOptions options{.gap = gap,
-                             .box_aspect = run.options.box_aspect,
-                             .target_pe = good_enough,
-                             .most_pe = most_pe(run),
-                             .seed = run.options.seed,
-                             .threads = run.threads,
-                             .search = search,
-                             .rotate = run.options.rotate,
-                             .align_axes = run.options.align_axes};
+  const PlaceOptions options = place_options(run, gap, good_enough, search);
   if (!any_fixed(freedom)) return {.charts = place_charts(charts, options, run.monitor)};
   auto placed = place_around(charts, freedom, options, run.monitor);
   if (!placed)
@@ -132,16 +160,22 @@ Placing place_with(const Refinement& run, const std::vector<Chart>& charts, cons
   constexpr double kPromising = 0.99;  // of the bound
   const bool rather_move = rather_moves(run, charts.size());
   const std::size_t tries = none_bends(freedom) ? gaps.size() : rather_move ? std::min(gaps.size(), kLittleLess) : 1;
+  // Charts that are to bend had better not stand in rows, which jam.
+  const bool may_stand_in_rows = charts.size() > kManyCharts && !any_fixed(freedom) && !run.options.relax;
+  std::optional<Placing> rows;
+  if (may_stand_in_rows) rows = in_rows(run, charts, {gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(tries)});
+  if (rows && !may_take_wider_gap(run, charts, gaps, *rows)) return std::move(*rows);
   std::size_t k = 0;
   while (rather_move && k + 1 < tries && takes_too_much(run, charts, freedom, gaps[k])) ++k;
   const Placing first{place(run, charts, freedom, gaps[k], good_enough), gaps[k]};
   if (holds_bound(run, first.placed, kStoredSpare)) return first;
-  while (++k < tries && !run.monitor.finishing()) {
+  while (++k < tries && !(rows && gaps[k].value <= rows->gap.value) && !run.monitor.finishing()) {
     if (likely_pe(run, first.placed, freedom, first.gap, gaps[k]) < kPromising * run.options.pe_bound) continue;
     PlacedCharts closer = place(run, charts, freedom, gaps[k], run.options.pe_bound);
     if (holds_bound(run, closer, kStoredSpare)) return {std::move(closer), gaps[k]};
   }
-  return first;
+  if (may_stand_in_rows && !rows) rows = in_rows(run, charts, {gaps_to_squeeze_with(run, charts, freedom, first, gaps).front()});
+  return rows ? std::move(*rows) : first;
 }
 
 std::vector<Gap> gaps_to_squeeze_with(const Refinement& run, const std::vector<Chart>& pieces, const Freedoms& freedom,

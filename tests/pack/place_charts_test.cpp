@@ -95,6 +95,20 @@ TEST(PlaceCharts, OneChartTurnsAsItMay) {
   EXPECT_NEAR(sides(tilted, {.align_axes = true}).maxCoeff(), 1, 1e-12);
 }
 
+TEST(PlaceCharts, InRowsWhereTheseReachTheTarget) {
+  std::vector<Atlas> faces;
+  for (int k = 0; k < 300; ++k) faces.push_back(shapes::mesh(shapes::transformed(shapes::rectangle(1, 1.5), 1, k, {0, 0}), 2));
+  const std::vector<Chart> charts = charts_of(shapes::combine(faces));
+  Monitor monitor;
+  const PlaceOptions options{.gap = {0.002}, .box_aspect = 1, .target_pe = 0.8};
+  const auto placed = place_in_rows(charts, options, monitor);
+  ASSERT_TRUE(placed);
+  testing::expect_certified(*placed);
+  EXPECT_GE(testing::packing_efficiency(*placed, 1), options.target_pe);
+  EXPECT_GE(gap_between_charts(*placed), options.gap.length(box_sides(*placed, 1)));
+  EXPECT_FALSE(place_in_rows(charts, {.gap = {0.006}, .box_aspect = 1, .target_pe = 0.8}, monitor));
+}
+
 TEST(PlaceCharts, CanBeCancelled) {
   Monitor monitor;
   monitor.cancel();

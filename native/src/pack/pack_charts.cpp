@@ -8,6 +8,7 @@
 #include "pack/canonical_outlines.h"
 #include "pack/compaction.h"
 #include "pack/grid_search.h"
+#include "pack/rows.h"
 #include "pack/turns.h"
 
 namespace atlas_refine {
@@ -70,6 +71,17 @@ Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<doub
   PackOptions unit = options;
   unit.gap = gap_between(canonical, options);
   return packing_of(outlines, canonical, search_on_grid(canonical.outlines, 1, unit), area, options.box_aspect);
+}
+
+std::optional<Packing> pack_charts_in_rows(const std::vector<Outline>& outlines, const std::vector<double>& areas,
+                                           const PackOptions& options) {
+  const double area = sum_of(areas);
+  const CanonicalOutlines canonical = canonical_outlines(outlines, std::sqrt(area));
+  Watch watch(options.tick);
+  std::vector<Placement> placements =
+      pack_in_rows(canonical.outlines, {gap_between(canonical, options), options.box_aspect, 1 / options.target_pe}, watch);
+  if (placements.empty()) return std::nullopt;
+  return packing_of(outlines, canonical, std::move(placements), area, options.box_aspect);
 }
 
 std::optional<Packing> with_larger_gap(const std::vector<Outline>& outlines, const std::vector<double>& areas,

@@ -67,6 +67,10 @@ struct Packing {
 /// Near-linear in charts.
 Packing pack_charts(const std::vector<Outline>& outlines, const std::vector<double>& areas, const PackOptions& options);
 
+/// The same with all of them in rows, see pack_in_rows(); nothing where that does not reach the target.
+std::optional<Packing> pack_charts_in_rows(const std::vector<Outline>& outlines, const std::vector<double>& areas,
+                                           const PackOptions& options);
+
 /// A layout that has the gap `before` with that of `options`, which is a little larger. Nothing where charts do not come that far
 /// apart, or are so few or so many that packing them anew is as well.
 std::optional<Packing> with_larger_gap(const std::vector<Outline>& outlines, const std::vector<double>& areas,

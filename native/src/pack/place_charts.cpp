@@ -86,6 +86,12 @@ Outline prepared_outline(const PlaceOptions& options, Chart& chart) {
   return outline;
 }
 
+void move_charts(const std::vector<Placement>& placements, std::vector<Chart>& charts) {
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    for (Vec2& uv : charts[c].uvs) uv = placements[c].apply(uv);
+  }
+}
+
 /// The gap in the box that charts are likely to need: in that which reaches the target, where these may be packed so well.
 double likely_gap(const std::vector<Chart>& charts, const PlaceOptions& options, const RoomForGap& room) {
   const auto gap_at_pe = [&](double pe) { return options.gap.length(sides_of_area(uv_area(charts) / pe, options.box_aspect)); };
@@ -153,9 +159,28 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
     const bool will_do = apart && (apart->pe >= options.target_pe || packing.pe < options.target_pe);
     packing = will_do ? *apart : pack_charts(outlines, areas, pack);
   }
-  for (std::size_t c = 0; c < placed.size(); ++c) {
-    for (Vec2& uv : placed[c].uvs) uv = packing.placements[c].apply(uv);
+  move_charts(packing.placements, placed);
+  return placed;
+}
+
+std::optional<std::vector<Chart>> place_in_rows(const std::vector<Chart>& charts, const PlaceOptions& options, Monitor& monitor) {
+  const PhaseScope scope(Phase::Pack);
+  std::vector<Chart> placed = charts;
+  std::vector<Outline> outlines;
+  std::vector<double> areas;
+  for (Chart& chart : placed) {
+    outlines.push_back(prepared_outline(options, chart));
+    areas.push_back(uv_area(chart));
   }
+  // In a larger box than that of the target the gap would be wider.
+  const Vec2 box = sides_of_area(uv_area(charts) / options.target_pe, options.box_aspect);
+  const auto packing = pack_charts_in_rows(outlines, areas,
+                                           {.gap = kFirstMore * options.gap.length(box),
+                                            .box_aspect = options.box_aspect,
+                                            .target_pe = options.target_pe,
+                                            .tick = [&](double fraction) { monitor.report(fraction); }});
+  if (!packing) return std::nullopt;
+  move_charts(packing->placements, placed);
   return placed;
 }
 

@@ -37,6 +37,9 @@ std::vector<Needle> needles_among(const std::vector<Chart>& charts);
 /// The same charts, rigidly moved, at least the gap apart. Their scales and shapes are kept.
 std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOptions& options, Monitor& monitor);
 
+/// The same in rows, see pack_in_rows(); nothing where they do not reach options.target_pe.
+std::optional<std::vector<Chart>> place_in_rows(const std::vector<Chart>& charts, const PlaceOptions& options, Monitor& monitor);
+
 /// Charts around fixed ones, which come with the texture's UVs in units of its height: in the smallest frame of
 /// options.box_aspect that was found to hold them, or in one in which they cover options.target_pe less the fixed charts' share.
 /// The charts lie in that frame, the fixed ones times its height; nothing where the fixed charts leave no room.
