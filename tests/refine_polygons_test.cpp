@@ -1,6 +1,7 @@
 // Polygons are valid whoever divides them, and measured the same: both roads on meshes of quads and of larger polygons.
 #include <algorithm>
 
+#include "crossing_polygons.h"
 #include "geometry/convex_polygon.h"
 #include "geometry/predicates.h"
 #include "output_atlas.h"
@@ -107,6 +108,14 @@ TEST(RefinePolygons, AConcaveQuadOfTheInputIsNamedAndTheOthersStayConvex) {
   const bool told = std::any_of(result.warnings.begin(), result.warnings.end(),
                                 [](const std::string& text) { return text.starts_with("1 face is not convex in the UV map"); });
   EXPECT_EQ(told, result.triangulations.not_convex == 1);
+}
+
+TEST(RefinePolygons, AFaceThatCrossesItselfByAHairIsMendedByAHair) {
+  for (const double by : {1e-4, 1e-5, 1e-6}) {
+    const RefineResult result = refine_soundly(testing::plate(testing::crossing_notches(by)), {});
+    EXPECT_EQ(result.intervention, Intervention::Moved);
+    EXPECT_LT(result.after.distortion, 1.001) << by;
+  }
 }
 
 TEST(RefinePolygons, CutFacesAreConvexOrTriangles) {

@@ -5,6 +5,7 @@
 
 #include "atlas_refine/error.h"
 #include "charts.h"
+#include "crossing_polygons.h"
 #include "geometry/predicates.h"
 #include "small_atlases.h"
 
@@ -99,6 +100,16 @@ TEST(TriangulateFaces, ReadersTrianglesThatAreFlippedInTheUvPlaneArePassedOver) 
   atlas.triangles = {{0, 1, 3}, {1, 2, 3}};
   const Chart chart = split_charts(atlas).charts[0];
   for (const Triangle& t : chart.triangles) EXPECT_GT(orientation(chart.uvs[t[0]], chart.uvs[t[1]], chart.uvs[t[2]]), 0);
+}
+
+TEST(TriangulateFaces, OfAFaceThatCrossesItselfTheReadersTrianglesAreTakenWhereTheyFlipNoMoreThanTheyMust) {
+  Atlas atlas = testing::plate(testing::crossing_notches(1e-6));
+  const std::vector<Triangle> good = {{0, 1, 2}, {0, 2, 9}, {2, 3, 4}, {2, 4, 5}, {2, 5, 8}, {2, 8, 9}, {5, 6, 7}, {5, 7, 8}};
+  atlas.triangles.assign(good.begin(), good.end());
+  EXPECT_EQ(split_charts(atlas).charts[0].triangles, good);
+  const std::vector<Triangle> fan = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 7}, {0, 7, 8}, {0, 8, 9}};
+  atlas.triangles.assign(fan.begin(), fan.end());
+  EXPECT_NE(split_charts(atlas).charts[0].triangles, fan);
 }
 
 TEST(TriangulateFaces, AReadersTriangleAcrossTwoFacesIsRefused) {

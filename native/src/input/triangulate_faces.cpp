@@ -1,4 +1,5 @@
-// Triangles as they are, polygons as their reader divides them, by a fan or by the triangulation of their UV outline.
+// Triangles as they are, polygons as their reader divides them, by a fan or by the triangulation of their UV outline; what
+// crosses itself so that the least of it is flipped.
 #include "input/triangulate_faces.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <optional>
 
 #include "geometry/convex_polygon.h"
+#include "geometry/least_flipped.h"
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
 #include "geometry/rest_triangle.h"
@@ -15,6 +17,10 @@
 namespace atlas_refine {
 
 namespace {
+
+// Flipped area, of a square of the face's size, above the least, that a division is taken with: the reader's, which the face will
+// be seen by, and a fan, which must not spoil what is small. Where all flip much, a fan may flip ten times as much.
+constexpr double kReaders = 1e-3, kFan = 1e-9, kFanMore = 10;
 
 /// The corners of a face in the order that its chart has them in.
 std::vector<int> face_corners(const Atlas& atlas, int face, bool turned) {
@@ -59,20 +65,39 @@ std::optional<std::vector<Triangle>> positive_triangles(int face, const Outline&
   return triangulate_polygon(outline.uvs, outline.positions);
 }
 
-/// A face without a positive triangulation: a fan, unless corners that are one vertex of the chart would meet in a triangle of
-/// it. Such a face has a triangulation where the input has its corners; noise was settled since.
-std::vector<Triangle> any_triangles(const Atlas& atlas, const std::vector<CornerRef>& corners, const Outline& outline) {
-  std::vector<int> vertices;
+bool has_repeats(std::vector<int> values) {
+  std::sort(values.begin(), values.end());
+  return std::adjacent_find(values.begin(), values.end()) != values.end();
+}
+
+/// As the input has them, counterclockwise for the most part.
+std::vector<Vec2> uvs_turned_up(const Atlas& atlas, const std::vector<int>& corners) {
   std::vector<Vec2> uvs;
-  for (int c : outline.corners) {
-    vertices.push_back(corners[c].vertex);
-    uvs.push_back(atlas.corner_uvs[c]);
-  }
-  std::sort(vertices.begin(), vertices.end());
-  if (std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end()) return polygon_fan(outline.size());
+  for (int c : corners) uvs.push_back(atlas.corner_uvs[c]);
   const double turned = doubled_area(uvs) < 0 ? -1 : 1;
   for (Vec2& uv : uvs) uv.x() *= turned;
-  return triangulate_polygon(uvs, outline.positions).value_or(polygon_fan(outline.size()));
+  return uvs;
+}
+
+/// A face without a positive triangulation, as its reader divides it or as a fan where next to nothing of it runs backwards more
+/// than it must: what crosses itself by a hair is to be mended by a hair. Corners that are one vertex of the chart may not meet
+/// in a triangle; such a face has a triangulation where the input has its corners: noise was settled since.
+std::vector<Triangle> any_triangles(const Atlas& atlas, const std::vector<CornerRef>& corners, int face, const Outline& outline,
+                                    const ReaderTriangles& reader) {
+  std::vector<int> vertices;
+  for (int c : outline.corners) vertices.push_back(corners[c].vertex);
+  const bool repeats = has_repeats(vertices);
+  if (repeats) {
+    if (const auto as_read = triangulate_polygon(uvs_turned_up(atlas, outline.corners), outline.positions)) return *as_read;
+  }
+  const std::vector<Triangle> fan = polygon_fan(outline.size());
+  if (outline.size() == 3) return fan;
+  const FlippedArea flipped(outline.uvs, outline.positions);
+  const auto best = least_flipped(flipped, vertices);
+  if (!best) return fan;
+  const double least = flipped.of(*best);
+  if (const auto own = reader.of_face(face, outline.corners); own && !repeats && flipped.of(*own) < least + kReaders) return *own;
+  return !repeats && flipped.of(fan) < kFanMore * least + kFan ? fan : *best;
 }
 
 FaceReading reading_of(int chart, const Outline& outline, bool has_triangles) {
@@ -153,7 +178,7 @@ FaceTriangles triangulate_faces(const Atlas& atlas, const std::vector<CornerRef>
     out.readings.push_back(reading_of(own, outline, triangles.has_value()));
     if (!triangles) {
       out.defects.push_back({own, face, defect_of(outline.uvs)});
-      triangles = any_triangles(atlas, corners, outline);
+      triangles = any_triangles(atlas, corners, face, outline, reader);
     }
     for (const Triangle& t : *triangles) {
       chart.triangles.push_back(on_chart(t));
