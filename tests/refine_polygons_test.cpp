@@ -5,6 +5,7 @@
 #include "geometry/convex_polygon.h"
 #include "geometry/predicates.h"
 #include "output_atlas.h"
+#include "polygon_sheets.h"
 #include "refine_checks.h"
 #include "shapes.h"
 #include "sheets.h"
@@ -116,6 +117,25 @@ TEST(RefinePolygons, AFaceThatCrossesItselfByAHairIsMendedByAHair) {
     EXPECT_EQ(result.intervention, Intervention::Moved);
     EXPECT_LT(result.after.distortion, 1.001) << by;
   }
+}
+
+/// An L of quads one of whose corners lies in the UVs that far beside the straight line between its neighbours; not on the
+/// surface.
+Atlas with_straight_corner(double beside) {
+  Atlas atlas = testing::quads(testing::l_cells(2));
+  std::vector<Vec2> uvs(atlas.positions.size());
+  for (int c = 0; c < atlas.corner_count(); ++c) uvs[atlas.corner_vertices[c]] = atlas.corner_uvs[c];
+  const auto face = atlas.corner_vertices.begin();  // the first: its second corner is on the border
+  const Vec2 from = uvs[face[0]], chord = uvs[face[2]] - from;
+  uvs[face[1]] = from + 0.5 * chord + beside * Vec2(chord.y(), -chord.x());
+  for (int c = 0; c < atlas.corner_count(); ++c) atlas.corner_uvs[c] = uvs[atlas.corner_vertices[c]];
+  return atlas;
+}
+
+TEST(RefinePolygons, AQuadWithACornerThatIsAllButStraightStopsNothing) {
+  const double clear = refine_soundly(with_straight_corner(0.02), {}).after.distortion;
+  for (const double beside : {1e-4, 1e-6, 2e-7, 1e-9})
+    EXPECT_NEAR(refine_soundly(with_straight_corner(beside), {}).after.distortion, clear, 1e-3) << beside;
 }
 
 TEST(RefinePolygons, CutFacesAreConvexOrTriangles) {

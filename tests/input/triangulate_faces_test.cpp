@@ -112,6 +112,16 @@ TEST(TriangulateFaces, OfAFaceThatCrossesItselfTheReadersTrianglesAreTakenWhereT
   EXPECT_NE(split_charts(atlas).charts[0].triangles, fan);
 }
 
+TEST(TriangulateFaces, ACornerThatIsStraightInTheUvsOnlyIsNotGuarded) {
+  for (const double beside : {1e-2, 1e-4, 1e-6}) {
+    Atlas atlas = one_face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    atlas.corner_uvs[1] = {0.5 + beside, 0.5 - beside};
+    const ChartSet set = split_charts(atlas);
+    EXPECT_TRUE(set.defects.empty());
+    EXPECT_EQ(set.charts[0].guards.empty(), beside < 1e-3) << beside;
+  }
+}
+
 TEST(TriangulateFaces, AReadersTriangleAcrossTwoFacesIsRefused) {
   Atlas atlas = strip(2);
   for (const std::array<int, 3>& triangle : {std::array<int, 3>{0, 1, 5}, {0, 1, 8}, {-1, 1, 2}}) {

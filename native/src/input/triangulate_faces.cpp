@@ -2,6 +2,7 @@
 // crosses itself so that the least of it is flipped.
 #include "input/triangulate_faces.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "geometry/predicates.h"
 #include "geometry/rest_triangle.h"
 #include "geometry/triangulate_polygon.h"
+#include "input/face_areas.h"
 #include "input/reader_triangles.h"
 
 namespace atlas_refine {
@@ -21,6 +23,9 @@ namespace {
 // Flipped area, of a square of the face's size, above the least, that a division is taken with: the reader's, which the face will
 // be seen by, and a fan, which must not spoil what is small. Where all flip much, a fan may flip ten times as much.
 constexpr double kReaders = 1e-3, kFan = 1e-9, kFanMore = 10;
+
+/// A guard's part of its face in the UVs / that in space, below which it has no shape worth keeping.
+constexpr double kCrushed = 1e-3;
 
 /// The corners of a face in the order that its chart has them in.
 std::vector<int> face_corners(const Atlas& atlas, int face, bool turned) {
@@ -127,14 +132,28 @@ std::vector<Triangle> guards_of(const Outline& outline, const FaceReading& readi
   return wanted;
 }
 
-/// Guards with their shapes in space, where the polygon is clearly convex there. Half of a quad's area then goes to either
-/// diagonal.
-std::vector<Guard> shaped(int face, const Outline& outline, const std::vector<Triangle>& triangles) {
+/// Twice the area of a triangle of the face / that of the face, in the UVs and in space.
+struct Part {
+  double in_uvs, in_space;
+};
+
+Part part_of(const Atlas& atlas, int face, const Outline& outline, const Triangle& t) {
+  const auto& uv = outline.uvs;
+  const auto& p = outline.positions;
+  return {doubled_area(uv[t[0]], uv[t[1]], uv[t[2]]) / doubled_area(uv),
+          (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / doubled_area_in_space(atlas, face)};
+}
+
+/// Guards with their shapes in space, where the polygon is clearly convex there; none where one of them is so thin in the UVs
+/// that it would stop the engine: the corner counts as straight. Half of a quad's area then goes to either diagonal.
+std::vector<Guard> shaped(const Atlas& atlas, int face, const Outline& outline, const std::vector<Triangle>& triangles) {
   const bool in_space = is_clearly_convex(outline.positions);
   const double share = in_space && outline.size() == 4 && is_clearly_convex(outline.uvs) ? 0.5 : 0;
   std::vector<Guard> out;
   for (const Triangle& t : triangles) {
     const auto& p = outline.positions;
+    const Part part = part_of(atlas, face, outline, t);
+    if (in_space && part.in_uvs < kCrushed * part.in_space) return {};
     out.push_back({t, face, in_space ? rest_from_space(p[t[0]], p[t[1]], p[t[2]]) : RestTriangle{Mat2::Zero(), 0}, share});
   }
   return out;
@@ -185,7 +204,7 @@ FaceTriangles triangulate_faces(const Atlas& atlas, const std::vector<CornerRef>
       chart.triangle_faces.push_back(face);
     }
     if (!out.readings.back().ears) continue;
-    for (Guard& guard : shaped(face, outline, guards_of(outline, out.readings.back(), *triangles))) {
+    for (Guard& guard : shaped(atlas, face, outline, guards_of(outline, out.readings.back(), *triangles))) {
       guard.triangle = on_chart(guard.triangle);
       chart.guards.push_back(guard);
     }

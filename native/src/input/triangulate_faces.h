@@ -31,7 +31,8 @@ struct FaceTriangles {
 /// that are not clearly convex in space have no shape yet. `corners` has one entry per corner; `turned_faces` tells which faces
 /// run backwards in their chart. A polygon that is convex above noise in the UV plane has its ears as guards, a strictly convex
 /// quad the triangles of its other diagonal, any other polygon its fan from the first corner where that is positive. Guards of
-/// quads that are clearly convex in both are measured.
+/// quads that are clearly convex in both are measured. A polygon that is clearly convex in space has none where one of them would
+/// be next to flat in the UV plane.
 FaceTriangles triangulate_faces(const Atlas& atlas, const std::vector<CornerRef>& corners, const std::vector<bool>& turned_faces,
                                 std::vector<Chart>& charts);
 
