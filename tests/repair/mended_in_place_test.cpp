@@ -35,6 +35,35 @@ TEST(MendedInPlace, OneFlippedTriangleInALargeChartKeepsItsShape) {
   }
 }
 
+/// A sheet of triangles with the columns between two lines so narrow in the UVs.
+Atlas with_narrow_columns(double narrow) {
+  Atlas atlas = shapes::mesh(shapes::rectangle(1, 0.6), 0.06, 0);
+  for (Vec2& uv : atlas.corner_uvs) uv.x() = uv.x() - (1 - narrow) * std::clamp(uv.x() - 0.4, 0.0, 0.15);
+  return atlas;
+}
+
+TEST(MendedInPlace, TrianglesThatAreNextToFlatGetTheirShapeBack) {
+  for (const double narrow : {1e-5, 1e-6, 3e-7}) {
+    const Atlas atlas = with_narrow_columns(narrow);
+    const ChartRepair repair = testing::only_repair(atlas);
+    EXPECT_EQ(repair.what, What::Untangled);
+    EXPECT_LE(repair.distortion_to_input, 1.02);
+    const std::vector<Chart> charts = testing::charts_of(atlas);
+    EXPECT_GT(dirichlet_sums(charts).best_energy(), 1000);
+    EXPECT_LT(dirichlet_sums(meshes_of(testing::repaired(charts).atlas)).best_energy(), 2);
+  }
+}
+
+TEST(MendedInPlace, ShapesThatTheWholeChartHasAreMeant) {
+  EXPECT_TRUE(testing::repaired(testing::charts_of(with_narrow_columns(1e-2))).repairs.empty());
+  // Squeezed as a whole, or less and less from one end to the other without being bent.
+  Atlas squeezed = shapes::mesh(shapes::disk(0.5), 0.06), shrinking = squeezed;
+  for (Vec2& uv : squeezed.corner_uvs) uv.y() *= 1e-5;
+  for (Vec2& uv : shrinking.corner_uvs) uv = std::exp(-12 * (uv.x() + 0.5)) * Vec2(std::cos(3 * uv.y()), std::sin(3 * uv.y()));
+  EXPECT_TRUE(testing::repaired(testing::charts_of(squeezed)).repairs.empty());
+  EXPECT_TRUE(testing::repaired(testing::charts_of(shrinking)).repairs.empty());
+}
+
 TEST(MendedInPlace, OneFlippedTriangleInAChartThatIsAllButALineHasItEmbeddedAnew) {
   Atlas atlas = testing::with_vertex_moved(shapes::mesh(shapes::disk(0.5), 0.03), {0.1, 0.05}, {0, 0.045});
   for (Vec2& uv : atlas.corner_uvs) uv.y() *= 1e-3;

@@ -21,6 +21,9 @@ namespace {
 constexpr double kDrawnOut = 1.2;
 /// Of the chart's size: triangles lower than that may flip where the chart is moved.
 constexpr double kRounding = 1e-13;
+/// Least / largest stretch of a triangle, as a part of what the chart has elsewhere, below which it is next to flat: the engine
+/// gets out of that in hundreds of steps, stuck halfway, or not at all.
+constexpr double kCrushed = 1e-4;
 constexpr int kGrain = 4096;  // triangles
 
 /// Logarithms of the largest and the least stretch of a positive triangle against the surface.
@@ -48,9 +51,8 @@ std::array<double, 2> usual_log_stretch(const Chart& chart, const std::vector<ch
   return {median(stretch[0]), median(stretch[1])};
 }
 
-}  // namespace
-
-std::vector<char> bad_triangles(const Chart& chart) {
+/// Flipped, without area, or so thin that rounding may flip them.
+std::vector<char> flat_triangles(const Chart& chart) {
   const double least = kRounding * uv_box({chart}).diagonal();
   std::vector<char> bad(chart.triangles.size());
   parallel_ranges(static_cast<int>(bad.size()), present_threads(), kGrain, [&](int begin, int end) {
@@ -62,6 +64,30 @@ std::vector<char> bad_triangles(const Chart& chart) {
       bad[k] = flat || orientation(a, b, c) <= 0;
     }
   });
+  return bad;
+}
+
+/// Logarithm of the least stretch / the largest.
+double log_slimness(const std::array<double, 2>& stretch) { return stretch[1] - stretch[0]; }
+
+/// Triangles that are positive, but crushed against their shape on the surface as nearly all others are not.
+void add_crushed(const Chart& chart, std::vector<char>& bad) {
+  const auto count = static_cast<int>(bad.size());
+  const auto crushed = gathered<int>(count, kGrain, [&](int begin, int end, std::vector<int>& out) {
+    for (int t = begin; t < end; ++t) {
+      if (!bad[t] && log_slimness(log_stretch(chart, t)) < std::log(kCrushed)) out.push_back(t);
+    }
+  });
+  if (crushed.empty()) return;
+  const double usual = log_slimness(usual_log_stretch(chart, bad));
+  for (const int t : crushed) bad[t] = log_slimness(log_stretch(chart, t)) < std::log(kCrushed) + usual;
+}
+
+}  // namespace
+
+std::vector<char> bad_triangles(const Chart& chart) {
+  std::vector<char> bad = flat_triangles(chart);
+  add_crushed(chart, bad);
   return bad;
 }
 
@@ -103,7 +129,7 @@ DirichletSums sums_of_good(const Chart& chart) {
 
 double distortion_to_good(const Chart& before, const Chart& after) {
   const std::vector<char> misshapen = misshapen_triangles(before);
-  if (misshapen == bad_triangles(before)) return dirichlet_sums_between({before}, {after}).best_energy();
+  if (misshapen == flat_triangles(before)) return dirichlet_sums_between({before}, {after}).best_energy();
   std::vector<RestTriangle> shapes;
   std::vector<Triangle> triangles;
   for (std::size_t t = 0; t < misshapen.size(); ++t) {

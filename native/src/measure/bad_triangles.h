@@ -1,4 +1,4 @@
-// The triangles of a chart that are not positive in the UV plane.
+// The triangles of a chart that are not positive in the UV plane, or hardly.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace atlas_refine {
 
-/// One flag per triangle: flipped, without area, or positive by rounding only: a sliver.
+/// One flag per triangle: flipped, without area, positive by rounding only (a sliver), or crushed against its shape on the
+/// surface as the chart as a whole is not.
 std::vector<char> bad_triangles(const Chart& chart);
 
 /// The same, and triangles at a vertex of a bad one that are positive and yet drawn out with it: their stretch against the

@@ -33,7 +33,7 @@ struct ChartRepair {
   };
   int chart;
   What what;
-  std::vector<int> faces = {};     ///< of the input, that were flipped or had no area
+  std::vector<int> faces = {};     ///< of the input, that were flipped or had next to no area
   double distortion_to_input = 0;  ///< E_2 to the input's UVs over all other faces; 0 where there are none
 };
 
