@@ -70,6 +70,27 @@ def smart_cube():
     return obj
 
 
+def half_then_mirrored():
+    """Half a sphere unwrapped and mirrored, the modifier applied: charts at its middle line are folded there."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
+    obj = bpy.context.object
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.bisect(plane_co=(0, 0, 0), plane_no=(1, 0, 0), clear_inner=True)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    unwrap(obj, angle_limit=math.radians(66))
+    obj.modifiers.new("Mirror", "MIRROR")
+    bpy.ops.object.modifier_apply(modifier="Mirror")
+    return obj
+
+
+def halves(mesh):
+    """Of the faces of either half of a mirrored mesh the UVs, sorted, since one half runs the other way round."""
+    uvs = get_uvs(mesh.uv_layers.active)
+    faces = [sorted(map(tuple, uvs[list(polygon.loop_indices)].tolist())) for polygon in mesh.polygons]
+    return faces[: len(faces) // 2], faces[len(faces) // 2 :]
+
+
 def bevel_without_width():
     """Faces between one row and the next that have no width, and end within the chart: beyond them the rows meet."""
     columns, thin, heights = 6, 3, (0.0, 0.1, 0.1, 0.2)
@@ -133,3 +154,23 @@ class EqualUvs(unittest.TestCase):
         with only_uvs_change(obj):
             self.assertIn("no new seams", messages(bpy.ops.uv.atlas_refine, pe_bound=0.7))
         self.assertEqual(torn_edges(obj.data, winding_counts=False), set())
+
+    def test_mirrored_halves_stay_on_each_other_and_joined(self):
+        obj = half_then_mirrored()
+        torn = torn_edges(obj.data, winding_counts=False)
+        self.assertEqual(*halves(obj.data))
+        folded = torn_edges(obj.data) - torn
+        self.assertGreater(len(folded), 10)
+        with only_uvs_change(obj):
+            told = messages(bpy.ops.uv.atlas_refine)
+        self.assertIn("no new seams", told)
+        self.assertNotIn("parted", told)
+        self.assertEqual(torn_edges(obj.data, winding_counts=False), torn)
+        self.assertEqual(*halves(obj.data))
+
+    def test_mirrored_halves_are_parted_on_request(self):
+        obj = half_then_mirrored()
+        with only_uvs_change(obj):
+            told = messages(bpy.ops.uv.atlas_refine, stacks="SEPARATE")
+        self.assertIn("parted", told)
+        self.assertGreaterEqual(texture_share(obj), 0.8)

@@ -70,12 +70,6 @@ TEST(Sheets, MirroredHalvesArePartedToldAndCounted) {
   EXPECT_TRUE(tells(result.repairs, "chart 0: mirrored, turned over"));
 }
 
-TEST(Sheets, MirroredHalvesAreNoStack) {
-  const RefineResult result = refine(mirrored_halves(), {.stacks = Stacks::Keep});
-  EXPECT_EQ(result.added_seams, 4);
-  for (const ChartReport& chart : result.charts) EXPECT_EQ(chart.fate, Fate::Refined);
-}
-
 /// The L, its upper arm wound the other way round.
 Atlas l_shape_of_two_windings() {
   const Atlas whole = l_shape();

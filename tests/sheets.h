@@ -97,6 +97,28 @@ inline Atlas pinched_sheet() {
   return atlas;
 }
 
+/// With the mirror image in the plane through the origin across an axis, as Blender's Mirror modifier makes it: vertices on the
+/// plane are shared, each face of the image has the UVs of its own.
+inline Atlas with_mirror(const Atlas& half, int axis) {
+  Atlas out = half;
+  std::vector<int> image;
+  for (const Vec3& p : half.positions) {
+    if (p[axis] == 0) {
+      image.push_back(static_cast<int>(image.size()));
+      continue;
+    }
+    image.push_back(static_cast<int>(out.positions.size()));
+    out.positions.push_back(p);
+    out.positions.back()[axis] = -p[axis];
+  }
+  for (int f = 0; f < half.face_count(); ++f) {
+    add_double(out, half, f, true);
+    for (int c = out.face_offsets[half.face_count() + f]; c < out.corner_count(); ++c)
+      out.corner_vertices[c] = image[out.corner_vertices[c]];
+  }
+  return out;
+}
+
 /// A sheet of 6 x 4 folded in the UV plane along its middle.
 inline Atlas mirrored_halves() {
   Atlas atlas = sheet(6, 4);

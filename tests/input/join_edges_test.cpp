@@ -175,7 +175,11 @@ TEST(AsMeant, MirroredHalvesArePartedAtTheirCommonLine) {
   EXPECT_TRUE(set.defects.empty());
   ASSERT_EQ(set.folds.size(), 1u);
   EXPECT_EQ(set.folds[0].charts, (std::vector<int>{0, 1}));
-  EXPECT_EQ(set.folds[0].edges, (std::vector<std::array<int, 2>>(4, {0, 1})));
+  ASSERT_EQ(set.folds[0].edges.size(), 4u);
+  for (const FoldEdge& edge : set.folds[0].edges) {
+    EXPECT_EQ(edge.charts, (std::array<int, 2>{0, 1}));
+    for (const auto& [a, b] : edge.ends) EXPECT_EQ(set.points[0][a], set.points[1][b]);
+  }
   EXPECT_EQ(set.seam_edges, 0);
 }
 

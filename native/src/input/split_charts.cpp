@@ -81,15 +81,22 @@ ChartSides orient_charts(const Atlas& atlas, const EdgeJoins& joins, const FaceC
 }
 
 /// The parted edges, gathered by what was one chart.
-std::vector<Fold> folds_of(const EdgeJoins& joins, const FaceCharts& charts, const std::vector<std::array<int, 2>>& parted) {
-  const auto chart = [&](int corner) { return charts.chart[joins.corner_faces[corner]]; };
-  DisjointSets whole(charts.count);
-  for (const auto& [c, other] : parted) whole.unite(chart(c), chart(other));
+std::vector<Fold> folds_of(const Atlas& atlas, const EdgeJoins& joins, const std::vector<CornerRef>& corners, int chart_count,
+                           const std::vector<std::array<int, 2>>& parted) {
+  DisjointSets whole(chart_count);
+  for (const auto& [c, other] : parted) whole.unite(corners[c].chart, corners[other].chart);
   std::map<int, Fold> folds;  // by the first chart
-  for (const auto& [c, other] : parted) folds[whole.find(chart(c))].edges.push_back({chart(c), chart(other)});
+  for (const auto& [c, other] : parted) {
+    std::array<int, 2> ends{other, joins.next_corner(atlas, other)};  // where this side starts, and where it ends
+    if (!joins.alike[c]) std::swap(ends[0], ends[1]);
+    folds[whole.find(corners[c].chart)].edges.push_back(
+        {{corners[c].chart, corners[other].chart},
+         {{{corners[c].vertex, corners[ends[0]].vertex},
+           {corners[joins.next_corner(atlas, c)].vertex, corners[ends[1]].vertex}}}});
+  }
   std::vector<Fold> out;
   for (auto& [first, fold] : folds) {
-    for (const auto& [a, b] : fold.edges) fold.charts.insert(fold.charts.end(), {a, b});
+    for (const FoldEdge& edge : fold.edges) fold.charts.insert(fold.charts.end(), edge.charts.begin(), edge.charts.end());
     std::sort(fold.charts.begin(), fold.charts.end());
     fold.charts.erase(std::unique(fold.charts.begin(), fold.charts.end()), fold.charts.end());
     out.push_back(std::move(fold));
@@ -183,7 +190,7 @@ ChartSet split_charts(const Atlas& atlas, Joining joining, const std::vector<int
                          [&] { sides = orient_charts(atlas, joins, face_charts); }});
   set.seam_edges = joins.seam_edges;
   set.seam_length = joins.seam_length;
-  set.folds = folds_of(joins, face_charts, parted);
+  set.folds = folds_of(atlas, joins, set.corners, face_charts.count, parted);
   set.mirrored = sides.mirrored;
   set.mixed_winding = sides.mixed;
   const auto points_and_uvs = [&] {

@@ -11,10 +11,16 @@
 
 namespace atlas_refine {
 
+/// An edge along which what was one chart, folded there, was parted.
+struct FoldEdge {
+  std::array<int, 2> charts;               ///< at either side of it
+  std::array<std::array<int, 2>, 2> ends;  ///< at each end the vertices of the two charts
+};
+
 /// Charts that were one, folded along edges in the UV plane.
 struct Fold {
   std::vector<int> charts;
-  std::vector<std::array<int, 2>> edges;  ///< along which they were parted: the charts at either side of each
+  std::vector<FoldEdge> edges;
 };
 
 /// The input atlas as charts. Chart UVs are the input's values, except that mirrored charts are turned over (u negated); where

@@ -8,6 +8,7 @@
 #include "geometry/box_tree.h"
 #include "geometry/freedom.h"
 #include "geometry/plane.h"
+#include "input/mirrored_copies.h"
 #include "measure/distortion.h"
 #include "support/quantile.h"
 
@@ -53,15 +54,6 @@ std::vector<Follower> find_stacks_in_groups(const std::vector<Chart>& placed, co
   return out;
 }
 
-/// The fold that each chart was part of, -1 where none.
-std::vector<int> folds_of_charts(const ChartSet& set) {
-  std::vector<int> out(set.charts.size(), -1);
-  for (std::size_t k = 0; k < set.folds.size(); ++k) {
-    for (const int chart : set.folds[k].charts) out[chart] = static_cast<int>(k);
-  }
-  return out;
-}
-
 }  // namespace
 
 int group_of(const Chart& chart, const std::vector<int>& groups) {
@@ -96,16 +88,15 @@ Participants take_part(const ChartSet& set, const RefineOptions& options, const 
       groups[group_of(chart, options.groups)].push_back(k);
     }
   }
-  const std::vector<int> fold = folds_of_charts(set);
   const bool stacks = options.stacks == Stacks::Keep && set.charts.size() > 1;
   const std::vector<Chart> placed = stacks ? charts_as_placed(set) : std::vector<Chart>();
   for (auto& [group, charts] : groups) {
     std::vector<char> follows(set.charts.size(), 0);
     if (stacks) {
       const std::vector<int> in_order = leaders_first(set, charts, options.locked);
-      for (Follower& follower : find_stacks_in_groups(placed, in_order, options.stack_groups, kOnEachOther * side)) {
-        // What was one chart, folded, was not put on itself on purpose.
-        if (fold[follower.chart] >= 0 && fold[follower.chart] == fold[follower.leader]) continue;
+      auto followers = find_stacks_in_groups(placed, in_order, options.stack_groups, kOnEachOther * side);
+      keep_mirrored_copies(set, followers);
+      for (Follower& follower : followers) {
         if (apart.contains(follower.chart)) {
           out.unstacked.push_back(follower.chart);
           continue;

@@ -35,8 +35,8 @@ int group_of(const Chart& chart, const std::vector<int>& groups);
 
 /// Left: charts whose UVs are all on a point or a line, unless they are to be embedded, and charts of faces without finite
 /// UVs (`has_uvs` false; empty: all have). Followers: as RefineOptions::stacks says, within one group; charts that are not
-/// mirrored, locked ones before, lead; those of different stack groups do not follow each other, nor parts of one folded chart,
-/// nor charts in `apart`.
+/// mirrored, locked ones before, lead; those of different stack groups do not follow each other, nor parts of one folded chart
+/// that are no mirrored copies, nor charts in `apart`.
 Participants take_part(const ChartSet& set, const RefineOptions& options, const std::vector<char>& has_uvs,
                        const std::set<int>& apart = {});
 

@@ -142,8 +142,9 @@ int tell_of_folds(const ChartSet& set, const Participants& participants, const s
   for (const Follower& follower : participants.followers) goes_with[follower.chart] = goes_with[follower.leader];
   int torn = 0;
   for (const Fold& fold : set.folds) {
-    const auto edges = std::count_if(fold.edges.begin(), fold.edges.end(),
-                                     [&](const auto& sides) { return goes_with[sides[0]] != goes_with[sides[1]]; });
+    const auto edges = std::count_if(fold.edges.begin(), fold.edges.end(), [&](const FoldEdge& edge) {
+      return goes_with[edge.charts[0]] != goes_with[edge.charts[1]];
+    });
     if (edges == 0) continue;
     torn += static_cast<int>(edges);
     journal.repairs.push_back(
