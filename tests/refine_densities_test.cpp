@@ -173,15 +173,15 @@ TEST(Densities, ACutAcrossAStiffPipeAmongOtherChartsIsFound) {
   EXPECT_LT(result.boundary_growth, 0.2);
 }
 
-TEST(Densities, OfAStiffPipeTheTradeOffListsRectangles) {
+TEST(Densities, OfAStiffPipeTheTradeOffListsCutsAcross) {
   RefineOptions options = keep();
   options.seams = Seams::Needed;
   options.trade_off = true;
   const CutReport cuts = *refine(pipe(20), options).cuts;
-  ASSERT_EQ(cuts.trade_off.size(), 2U);
+  ASSERT_GE(cuts.trade_off.size(), 2U);
   EXPECT_GT(cuts.trade_off.front().distortion, 2);
   EXPECT_LT(cuts.trade_off.back().distortion, 1.2);
-  options.point = 1;
+  options.point = static_cast<int>(cuts.trade_off.size()) - 1;
   EXPECT_EQ(refine(pipe(20), options).after.distortion, cuts.trade_off.back().distortion);
 }
 

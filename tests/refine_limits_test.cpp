@@ -125,19 +125,19 @@ TEST(Limits, TheRoadThatCutsSaysThatItMissedTheLimit) {
 }
 
 TEST(Limits, ChartsThatAreBoxedAndOverlapThemselvesAreEmbeddedFirst) {
-  // Three triangles of 150 degrees round one vertex: too few to be aligned, and lying on each other.
+  // Twelve triangles of 150 degrees round one vertex, five turns that lie on each other: no way of aligning them is worth it.
   Atlas fan;
   fan.positions = {{0, 0, 0}};
   fan.face_offsets = {0};
-  for (int k = 0; k <= 3; ++k) {
+  for (int k = 0; k <= 12; ++k) {
     const double uv = 150 * k * std::acos(-1.0) / 180;
-    fan.positions.emplace_back(std::cos(0.4 * uv), std::sin(0.4 * uv), 0.1 * k);
+    fan.positions.emplace_back(std::cos(0.1 * uv), std::sin(0.1 * uv), 0.1 * k);
   }
   const auto uv_of = [](int v) -> Vec2 {
     const double angle = 150 * (v - 1) * std::acos(-1.0) / 180;
     return v == 0 ? Vec2(0, 0) : Vec2(std::cos(angle), std::sin(angle));
   };
-  for (int k = 1; k <= 3; ++k) {
+  for (int k = 1; k <= 12; ++k) {
     for (const int v : {0, k, k + 1}) {
       fan.corner_vertices.push_back(v);
       fan.corner_uvs.push_back(uv_of(v));

@@ -1,11 +1,14 @@
 // Cuts only where they are needed or pay, by the public measures of the output mesh.
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "closed_shapes.h"
 #include "cut_checks.h"
 #include "output_checks.h"
 #include "sheets.h"
+#include "small_atlases.h"
 
 namespace atlas_refine {
 namespace {
@@ -475,6 +478,43 @@ TEST(Needed, OptionsOutOfRangeAreRefused) {
     set(options);
     EXPECT_EQ(refusal(atlas, options).code(), ErrorCode::BadOption);
   }
+}
+
+/// Length of edges in space that one face has alone.
+double open_length(const Atlas& atlas) {
+  std::set<std::pair<int, int>> sides;
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    const int first = atlas.face_offsets[f], end = atlas.face_offsets[f + 1];
+    for (int c = first; c < end; ++c) sides.emplace(atlas.corner_vertices[c], atlas.corner_vertices[c + 1 < end ? c + 1 : first]);
+  }
+  double length = 0;
+  for (const auto& [a, b] : sides) {
+    if (!sides.contains({b, a})) length += (atlas.positions[a] - atlas.positions[b]).norm();
+  }
+  return length;
+}
+
+// Where nothing is but a face's long edges cuts begin inside them; whole, a plank 20 x 1 ends at 8.03.
+TEST(Needed, ChartsOfOneLongFaceAreCutAcross) {
+  RefineOptions options = needed_within(1.05);
+  options.box_aspect = 1;
+  const Atlas atlas = plank(20);
+  const RefineResult result = refine_soundly(atlas, options);
+  EXPECT_EQ(result.intervention, Intervention::Cut);
+  EXPECT_LT(result.boundary_growth, 0.25);
+  options.cut = Cut::Edges;
+  EXPECT_EQ(refusal(atlas, options).code(), ErrorCode::BoundNotReached);
+}
+
+// The face beyond the seam is divided there too: the mesh stays closed.
+TEST(Needed, BesideCutsThroughLongFacesTheMeshStaysClosed) {
+  RefineOptions options = needed_within(1.2);
+  options.box_aspect = 1;
+  const Atlas atlas = tube(4, 20);
+  const RefineResult result = refine_soundly(atlas, options);
+  EXPECT_EQ(result.intervention, Intervention::Cut);
+  EXPECT_NEAR(open_length(atlas), 8, 1e-9);
+  EXPECT_NEAR(open_length(testing::output(atlas, result)), 8, 1e-9);
 }
 
 }  // namespace

@@ -356,5 +356,26 @@ TEST(RefineRectangles, TinyInputs) {
   refine_soundly(flat_atlas({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}), rectangles(0.4));
 }
 
+// Whole, they end at 8.03 in a square, and four of them at 3.2.
+TEST(RefineRectangles, ChartsOfOneLongFaceAreCutAcross) {
+  for (const Atlas& atlas : {plank(20), tube(4, 20)}) {
+    RefineOptions options = rectangles();
+    options.box_aspect = 1;
+    const RefineResult result = refine_soundly(atlas, options);
+    EXPECT_EQ(result.intervention, Intervention::Cut);
+    EXPECT_LT(result.after.distortion, 1.01);
+  }
+}
+
+// As long as one is whole no cut of another saves anything, and what a cut leaves is long and narrow as well.
+TEST(RefineRectangles, SoAreThoseLongerThanRectanglesMayBe) {
+  RefineOptions options = rectangles();
+  options.box_aspect = 1;
+  const RefineResult result = refine_soundly(tube(4, 100), options);
+  EXPECT_EQ(result.intervention, Intervention::Cut);
+  EXPECT_LT(result.after.distortion, 1.3);
+  EXPECT_LT(result.boundary_growth, 0.3);  // straight across
+}
+
 }  // namespace
 }  // namespace atlas_refine

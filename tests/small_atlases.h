@@ -39,6 +39,26 @@ inline Atlas strip(int quads) {
   return flat_atlas(positions, faces);
 }
 
+/// A plank of one face, `length` x 1, its UVs as the surface.
+inline Atlas plank(double length) { return flat_atlas({{0, 0, 0}, {length, 0, 0}, {length, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}); }
+
+/// A tube without ends, `length` long, each of its sides one face, 1 wide, and a chart of its own beside the others.
+inline Atlas tube(int sides, double length) {
+  const double radius = 0.5 / std::sin(std::numbers::pi / sides);
+  Atlas atlas;
+  atlas.face_offsets = {0};
+  for (int k = 0; k < sides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / sides;
+    for (const double z : {0.0, length}) atlas.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    const int next = (k + 1) % sides;
+    for (const int v : {2 * k, 2 * k + 1, 2 * next + 1, 2 * next}) atlas.corner_vertices.push_back(v);
+    for (const Vec2& uv : {Vec2(0, 0), Vec2(length, 0), Vec2(length, 1), Vec2(0, 1)})
+      atlas.corner_uvs.emplace_back(uv.x(), uv.y() + 1.5 * k);
+    atlas.face_offsets.push_back(atlas.corner_count());
+  }
+  return atlas;
+}
+
 /// A cone, rolled out in the UVs to half a square; its tip is a whole column of vertices, each one at the same place.
 inline Atlas cone(int count) {
   std::vector<Vec3> positions;

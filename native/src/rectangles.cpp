@@ -71,7 +71,7 @@ void tell(const Refinement& run, const CutPlan& plan, const CutAtlas& cut, const
   if (!saved.empty())
     journal.fallbacks.push_back(charts_named(saved) + ": could not be deformed to the axes; embedded onto a rectangle");
   if (!boxed.empty())
-    journal.fallbacks.push_back(charts_named(boxed) + ": too few triangles, or no disk; packed by the bounding box as it is");
+    journal.fallbacks.push_back(charts_named(boxed) + ": not deformed to the axes; packed by the bounding box as it is");
   if (layout.extra_corners > 0)
     journal.fallbacks.push_back("the bound was missed with the charts' own corners; " + std::to_string(layout.extra_corners) +
                                 " were added to each chart");

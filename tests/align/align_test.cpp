@@ -41,15 +41,23 @@ TEST(Align, ThreadsChangeNothing) {
   }
 }
 
-TEST(Align, TinyChartsStayAsTheyAre) {
+TEST(Align, ChartsThatAreNotToBendStayAsTheyAre) {
   const std::vector<Chart> charts = testing::charts_of(unit_square());
-  const auto out = testing::aligned(charts);
+  Monitor monitor;
+  const auto out = align_charts(charts, {.freedom = {Freedom::Moves}}, monitor);
   EXPECT_EQ(out[0].way, AxisAlignedChart::Way::AsItIs);
   EXPECT_TRUE(out[0].boundary.empty());
   Chart chart = charts[0];
   chart.uvs = out[0].mesh.uvs;
   EXPECT_NEAR(dirichlet_sums({chart}).best_energy(), 1, 1e-12);
   EXPECT_NEAR(uv_box({chart}).area(), 1, 1e-9);
+}
+
+// One face of two triangles is a chart like any other.
+TEST(Align, ChartsOfOneFaceAreAligned) {
+  const auto out = testing::aligned(testing::charts_of(unit_square()));
+  EXPECT_EQ(out[0].way, AxisAlignedChart::Way::Deformed);
+  EXPECT_FALSE(out[0].boundary.empty());
 }
 
 int corner_count(const AxisAlignedChart& chart) {

@@ -53,6 +53,19 @@ TEST(Prepare, ChartsOfVeryFewTriangles) {
   expect_prepared(testing::charts_of(flat_atlas({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})).front());
 }
 
+// Trails across fans of slivers would run askew on the surface.
+TEST(Prepare, LongFacesAreDividedInsideToo) {
+  for (const double length : {20.0, 200.0}) {
+    const Chart chart = testing::charts_of(plank(length)).front();
+    expect_prepared(chart);
+    const SplitMesh mesh = prepare_chart(chart).mesh;
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      for (int k = 0; k < 3; ++k)
+        EXPECT_LE((mesh.uvs[mesh.to({t, k})] - mesh.uvs[mesh.from({t, k})]).norm(), 0.08 * 2 * (length + 1));
+    }
+  }
+}
+
 TEST(Prepare, SeveralHolesAreAllCut) {
   shapes::Polygon polygon = shapes::rectangle(1, 1);
   for (const Vec2& centre : {Vec2(0.25, 0.25), Vec2(0.7, 0.3), Vec2(0.5, 0.75)}) {

@@ -8,6 +8,7 @@
 #include "cut_checks.h"
 #include "input/price_sides.h"
 #include "sheets.h"
+#include "small_atlases.h"
 
 namespace atlas_refine {
 namespace {
@@ -105,6 +106,76 @@ TEST(ChartCuts, WhatLeadsNowhereChangesNothing) {
   EXPECT_FALSE(sheet.cuts.add(sheet.chord({0.2, 0}, {0.8, 0})));  // along the border
   EXPECT_EQ(sheet.cuts.length(), 0);
   EXPECT_EQ(sheet.cuts.mesh().triangle_count(), static_cast<int>(sheet.set.charts[0].triangles.size()));
+}
+
+/// A plank of one face, 20 x 1.
+struct Plank {
+  ChartSet set = split_charts(plank(20));
+  CutAtlas whole = whole_atlas(set.charts);
+  SidePrices prices;
+  ChartCuts cuts;
+
+  explicit Plank(Cut cut) : cuts(whole.pieces[0], set.charts[0], prices, cut) {}
+
+  /// Number of the place at this point of the border.
+  int place(const Vec2& at) const {
+    const Border border = cuts.border();
+    for (std::size_t l = 0; l < border.loops.size(); ++l) {
+      for (std::size_t k = 0; k < border.loops[l].size(); ++k) {
+        if ((border.at[l][k] - at).norm() < 1e-9) return border.loops[l][k];
+      }
+    }
+    return 1000;
+  }
+  Chord across(double x) const { return {.ends = {place({x, 0}), place({x, 1})}, .at = {Vec2(x, 0), Vec2(x, 1)}}; }
+};
+
+TEST(ChartCuts, LongFacesAreCutAcrossAtEvenPlaces) {
+  Plank plank(Cut::Split);
+  const std::vector<Chord> found = necks(plank.cuts.border(), 0.4, 5);
+  ASSERT_EQ(found.size(), 5u);
+  for (const Chord& chord : found) EXPECT_NEAR(chord.length(), 1, 1e-9);
+  EXPECT_EQ(plank.cuts.mesh().vertex_count(), 4);
+  EXPECT_FALSE(plank.cuts.divides_border());
+  for (const double x : {5.0, 10.0, 1.0}) ASSERT_TRUE(plank.cuts.add(plank.across(x)));
+  EXPECT_TRUE(plank.cuts.divides_border());
+  EXPECT_NEAR(plank.cuts.length(), 3, 1e-9);  // near the end too, where the diagonal's end is near
+  EXPECT_NEAR(plank.cuts.smallest_part(), 1, 1e-9);
+  EXPECT_EQ(plank.cuts.border().loops.size(), 4u);
+  testing::expect_conforming(plank.cuts.mesh());
+  testing::expect_positive(plank.cuts.mesh().uvs, plank.cuts.mesh().triangles);
+}
+
+TEST(ChartCuts, PlacesWhereNoCutEndsAreNoVertices) {
+  Plank plank(Cut::Split);
+  ASSERT_TRUE(plank.cuts.add(plank.across(5)));
+  const SplitMesh& mesh = plank.cuts.mesh();
+  int on_long_edges = 0;
+  for (const Vec2& uv : mesh.uvs) on_long_edges += uv.x() > 0 && uv.x() < 20 && (uv.y() == 0 || uv.y() == 1);
+  EXPECT_EQ(on_long_edges, 2);
+  const int vertices = mesh.vertex_count();
+  Chord wrong = plank.across(10);
+  wrong.ends[1] = wrong.ends[0];
+  EXPECT_FALSE(plank.cuts.add(wrong));
+  wrong = plank.across(10);
+  wrong.at[1] = wrong.at[0] + Vec2(1, 0);
+  EXPECT_FALSE(plank.cuts.add(wrong));
+  EXPECT_EQ(mesh.vertex_count(), vertices);
+}
+
+// They keep their numbers, so that what is known of a cut holds beside others.
+TEST(ChartCuts, PlacesAreTheSameAfterOtherCuts) {
+  Plank plank(Cut::Split);
+  const Chord chord = plank.across(10);
+  ASSERT_TRUE(plank.cuts.add(plank.across(5)));
+  EXPECT_EQ(plank.across(10).ends, chord.ends);
+  ASSERT_TRUE(plank.cuts.add(chord));
+  EXPECT_NEAR(plank.cuts.length(), 2, 1e-9);
+}
+
+TEST(ChartCuts, AlongEdgesALongFaceHasNoPlaces) {
+  Plank plank(Cut::Edges);
+  EXPECT_EQ(plank.cuts.border().loops[0].size(), 4u);
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ struct PieceReport {
 /// How the paper's road went; only with Intervention::Cut.
 struct RectangleReport {
   int tutte_charts = 0;   ///< charts that Tutte's embedding onto a rectangle had to save: the deformation had failed
-  int boxed_charts = 0;   ///< charts packed by their bounding box as they were: too few triangles, or no disk
+  int boxed_charts = 0;   ///< charts packed by their bounding box as they were: not deformed to the axes
   int holes_cut = 0;      ///< boundary loops that were joined to the outer one; with Cut::Edges none
   int extra_corners = 0;  ///< added to each chart because the bound was missed without
   int trails = 0;         ///< that the charts were cut along; with Cut::Edges the trails that paths of edges were sought for

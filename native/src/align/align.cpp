@@ -32,7 +32,6 @@ constexpr double kSameLine[] = {0.5, 0.1, 1e-3, 1e-6};
 constexpr double kMergeCost = 1.05;
 constexpr double kFreeMerge = 1e-4;  // E_d that merging may always cost: nearly flat charts would be cut into slivers
 constexpr double kAligned = 0.01;    // rad off an axis at most: a boundary that runs along the axes as it is
-constexpr int kLeastTriangles = 4;   // charts of fewer are packed as they are
 constexpr double kTooDistorted = 4;  // E_d of an axis-aligned chart that is not worth it, unless it was more before
 
 void rotate(Chart& chart, double angle) {
@@ -289,7 +288,6 @@ std::optional<AlignedDisk> aligned_disk(const Chart& chart, double sigma, Monito
 
 AxisAlignedChart align(const Chart& source, const SidePrices& prices, double sigma, Monitor& monitor) {
   constexpr int kTurns = 45;
-  if (source.triangles.size() < kLeastTriangles) return as_it_is(source, kTurns);
   PreparedChart prepared = prepare_chart(source, prices);
   if (!prepared.opening.is_disk) return as_it_is(source, kTurns);
   Chart chart = prepared.mesh.to_chart(source);

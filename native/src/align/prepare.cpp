@@ -1,13 +1,21 @@
 // Dividing edges.
 #include "align/prepare.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <tuple>
 #include <utility>
+
+#include "geometry/plane.h"
 
 namespace atlas_refine {
 namespace {
 
 // Boundary edges are divided until they are at most this fraction of the boundary long: corners can only lie at vertices.
 constexpr double kLongestEdge = 0.08;
+constexpr double kLongEdge = 1.5;  // times the side of a square with the chart's area: an edge inside that is longer is long
 
 void divide_long_boundary_edges(SplitMesh& mesh) {
   for (const auto& loop : mesh.boundary_loops()) {
@@ -22,6 +30,49 @@ void divide_long_boundary_edges(SplitMesh& mesh) {
       const int middle = mesh.split(mesh.find_side(a, b), 0.5, 0.5 * (mesh.uvs[a] + mesh.uvs[b]));
       edges.emplace_back(a, middle);
       edges.emplace_back(middle, b);
+    }
+  }
+}
+
+bool has_long_inner_edge(const SplitMesh& mesh) {
+  double area = 0, longest = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Triangle& corners = mesh.triangles[t];
+    area += 0.5 * doubled_area(mesh.uvs[corners[0]], mesh.uvs[corners[1]], mesh.uvs[corners[2]]);
+    for (int k = 0; k < 3; ++k) {
+      if (!mesh.is_boundary({t, k}))
+        longest = std::max(longest, (mesh.uvs[mesh.to({t, k})] - mesh.uvs[mesh.from({t, k})]).norm());
+    }
+  }
+  return longest > kLongEdge * std::sqrt(std::max(0.0, area));
+}
+
+/// Where boundary edges alone are divided, long faces become fans of slivers, which trails cross askew: the longest edge first,
+/// wherever it is.
+void divide_long_edges(SplitMesh& mesh) {
+  double limit = std::numeric_limits<double>::infinity();
+  for (const auto& loop : mesh.boundary_loops()) {
+    double perimeter = 0;
+    for (const Side& s : loop) perimeter += (mesh.uvs[mesh.to(s)] - mesh.uvs[mesh.from(s)]).norm();
+    limit = std::min(limit, kLongestEdge * perimeter);
+  }
+  std::priority_queue<std::tuple<double, int, int>> edges;
+  const auto add = [&](int a, int b) {
+    const double length = (mesh.uvs[b] - mesh.uvs[a]).norm();
+    if (length > limit) edges.emplace(length, a, b);
+  };
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      if (mesh.is_boundary({t, k}) || mesh.from({t, k}) < mesh.to({t, k})) add(mesh.from({t, k}), mesh.to({t, k}));
+    }
+  }
+  while (!edges.empty()) {
+    const auto [length, a, b] = edges.top();
+    edges.pop();
+    const int middle = mesh.split(mesh.find_side(a, b), 0.5, 0.5 * (mesh.uvs[a] + mesh.uvs[b]));
+    for (const Side& s : mesh.fan(middle)) {
+      add(middle, mesh.to(s));
+      if (mesh.is_boundary({s.triangle, (s.side + 2) % 3})) add(mesh.opposite(s), middle);
     }
   }
 }
@@ -51,6 +102,7 @@ PreparedChart prepare_chart(const Chart& chart, const SidePrices& prices) {
   PreparedChart out{SplitMesh(chart), {}};
   out.opening = open_to_disk(out.mesh, prices);
   if (!out.opening.is_disk) return out;
+  if (has_long_inner_edge(out.mesh)) divide_long_edges(out.mesh);
   divide_long_boundary_edges(out.mesh);
   divide_bridges(out.mesh);
   return out;

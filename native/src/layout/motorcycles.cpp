@@ -2,6 +2,8 @@
 #include "layout/motorcycles.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "support/disjoint_sets.h"
 
@@ -37,6 +39,16 @@ MotorcycleGraph shortest_graph(const QuadMesh& quads) {
     for (std::size_t k = 0; k < trails.size(); ++k) sums[k % 2] += quads.trails[trails[k]].length;
     const std::size_t first = trails.size() > 1 && sums[1] < sums[0] ? 1 : 0;
     for (std::size_t k = first; k < trails.size(); k += 2) graph.driven[trails[k]] = 1;
+  }
+  return graph;
+}
+
+MotorcycleGraph graph_across(const QuadMesh& quads) {
+  MotorcycleGraph graph = shortest_graph(quads);
+  const double side = std::sqrt(std::accumulate(quads.face_areas.begin(), quads.face_areas.end(), 0.0));
+  for (std::size_t c = 0; c < quads.corners.size(); ++c) {
+    const int trail = quads.corners[c].front();
+    if (quads.optional_corner[c] && quads.trails[trail].length < side) graph.driven[trail] = 1;
   }
   return graph;
 }

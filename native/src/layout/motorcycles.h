@@ -26,6 +26,8 @@ struct Decomposition {
 
 /// The shortest trail of each corner, short ones first.
 MotorcycleGraph shortest_graph(const QuadMesh& quads);
+/// The same, and of every extra corner whose trail is shorter than a square of the chart's area: a long chart in short parts.
+MotorcycleGraph graph_across(const QuadMesh& quads);
 /// Directions and ranks at random. At least one of every two consecutive trails of a corner is driven: floor(n / 2) to n of n.
 MotorcycleGraph random_graph(const QuadMesh& quads, Rng& rng);
 /// One corner chooses anew, or one trail gets another rank.

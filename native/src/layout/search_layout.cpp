@@ -19,7 +19,7 @@ namespace {
 constexpr double kSlack = 1.002;              // layouts are to hold so much more than the bound: stage 3 starts from them
 constexpr double kMoreThanGap = 1.2;          // kept beyond the gap: stage 3 starts with a little freedom
 constexpr double kLeastPadding = 2e-4;        // of the box diagonal, where no gap is asked for: borders must not touch
-constexpr double kLongestSides = 20;          // aspect of a rectangle; longer ones are long and narrow
+constexpr double kLongestSides = 20;          // aspect of a rectangle; longer ones, unless their chart is, are long and narrow
 constexpr int kChains = 8;                    // independent searches, so that threads do not change the result
 constexpr double kHot = 0.01;                 // accepted loss of score at the start of a chain
 constexpr int kFinalists = 4;                 // layouts whose packing is annealed
@@ -54,10 +54,14 @@ struct Round {
   int extra_corners;
   std::vector<QuadMesh> quads;              // per chart
   const std::vector<Decomposition>& boxed;  // per chart: its box where it is packed as it is, else empty
+  std::vector<double> longest;              // per chart: aspect of rectangles up to which they are not long and narrow
+  std::vector<char> too_long;               // per chart: for the box, which has a given aspect
   std::vector<int> order;                   // of charts, by their shapes: numbers of the input do not matter
   double area = 0;                          // of all charts
   double cut_length_unit = 0;
 };
+
+double aspect_of(const Box& box) { return box.size().maxCoeff() / box.size().minCoeff(); }
 
 /// Layouts are to hold this.
 double pe_target(const LayoutOptions& options) { return std::min(kSlack * options.pe_bound, 0.5 * (1 + options.pe_bound)); }
@@ -116,6 +120,15 @@ void add_quad_meshes(Round& round, const std::vector<AxisAlignedChart>& aligned,
   round.order = by_size(round);
 }
 
+void find_long_charts(Round& round, const std::vector<AxisAlignedChart>& aligned, const LayoutOptions& options) {
+  const double side = sides_of_area(round.area / kLikelyPe, options.box_aspect).maxCoeff();
+  for (const AxisAlignedChart& chart : aligned) {
+    const Box box = box_of_points(chart.mesh.uvs);
+    round.longest.push_back(std::max(kLongestSides, aspect_of(box)));
+    round.too_long.push_back(options.box_aspect > 0 && box.size().maxCoeff() > side);
+  }
+}
+
 /// The first round tries as many as were asked for; those after it that miss the bound fewer where there are many rectangles.
 int candidate_count(const Round& round, const LayoutOptions& options) {
   std::size_t faces = 1;
@@ -134,18 +147,20 @@ std::vector<Vec2> sizes_of(const Candidate& candidate, const Round& round) {
 
 /// Eq. (11); layouts below the bound come after all others, and so do those with long and narrow rectangles.
 Score score_of(const Candidate& candidate, const Round& round, const LayoutOptions& options) {
-  double cut = 0, longest = 1;
-  for (const Decomposition& d : candidate.decompositions) {
+  double cut = 0;
+  bool any_narrow = false;
+  for (std::size_t c = 0; c < candidate.decompositions.size(); ++c) {
+    const Decomposition& d = candidate.decompositions[c];
     cut += d.cut_length;
     if (d.trails.empty()) continue;  // what is not cut is as long as it is
-    for (const Box& box : d.rectangles) longest = std::max(longest, box.size().maxCoeff() / box.size().minCoeff());
+    for (const Box& box : d.rectangles) any_narrow |= aspect_of(box) > round.longest[c];
   }
   Score score;
   score.pe = round.area / candidate.packing.box.prod();
   score.growth = round.cut_length_unit > 0 ? cut / round.cut_length_unit : 0;
   score.value = score.pe - options.rectangles.omega * (1 + score.growth);
   if (score.pe < pe_target(options)) score.value -= 1 + 10 * (pe_target(options) - score.pe);
-  if (longest > kLongestSides) score.value -= 100;
+  if (any_narrow) score.value -= 100;
   return score;
 }
 
@@ -171,6 +186,16 @@ Decomposition decompose(const Round& round, int chart, const MotorcycleGraph& gr
   return round.boxed[chart].rectangles.empty() ? drive(round.quads[chart], graph) : round.boxed[chart];
 }
 
+/// What a search begins with. As long as one chart is whole that is longer than the box cuts of others gain nothing: so all such
+/// are cut at once.
+enum class Start { Shortest, Across, Random };
+
+Start start_of(int chain, const Round& round) {
+  if (chain == 0) return Start::Shortest;
+  const bool any_too_long = std::find(round.too_long.begin(), round.too_long.end(), 1) != round.too_long.end();
+  return chain == 1 && any_too_long && round.extra_corners > 0 ? Start::Across : Start::Random;
+}
+
 /// One annealed search.
 class Chain {
  public:
@@ -181,9 +206,9 @@ class Chain {
     }
   }
 
-  /// The best of `steps` candidates, the first of which is the shortest graph or one at random.
-  Candidate run(int steps, bool shortest_first, Monitor& monitor) {
-    Candidate present = first(shortest_first), best = present;
+  /// The best of `steps` candidates.
+  Candidate run(int steps, Start start, Monitor& monitor) {
+    Candidate present = first(start), best = present;
     for (int k = 1; k < steps; ++k) {
       monitor.check();
       Candidate trial = changed(present);
@@ -196,10 +221,13 @@ class Chain {
   }
 
  private:
-  Candidate first(bool shortest) {
+  Candidate first(Start start) {
     Candidate out{std::vector<MotorcycleGraph>(round_.quads.size()), std::vector<Decomposition>(round_.quads.size()), {}, {}};
     for (const int c : round_.order) {
-      out.graphs[c] = shortest ? shortest_graph(round_.quads[c]) : random_graph(round_.quads[c], rng_);
+      const QuadMesh& quads = round_.quads[c];
+      const bool across = start == Start::Across && round_.too_long[c];
+      if (start == Start::Random) out.graphs[c] = random_graph(quads, rng_);
+      if (start != Start::Random) out.graphs[c] = across ? graph_across(quads) : shortest_graph(quads);
       out.decompositions[c] = decompose(round_, c, out.graphs[c]);
     }
     pack(out, round_, options_, padding_);
@@ -231,7 +259,7 @@ std::vector<Candidate> run_chains(const Round& round, const LayoutOptions& optio
   std::atomic<int> done = 0;
   parallel_ranges(chains, options.threads, 1, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
-      best[k] = Chain(round, options, padding, Rng(options.seed, 100 + round.number, k)).run(steps, k == 0, monitor);
+      best[k] = Chain(round, options, padding, Rng(options.seed, 100 + round.number, k)).run(steps, start_of(k, round), monitor);
       monitor.report(0.8 * ++done / chains);
     }
   });
@@ -327,8 +355,9 @@ std::vector<Layout> search_layouts(const std::vector<AxisAlignedChart>& aligned,
   std::vector<Layout> best;
   const auto holds = [&] { return best.front().pe >= pe_target(options); };  // after a search
   const auto search = [&](int number, const Gap& gap, int extra_corners) {
-    Round round{number, gap, extra_corners, {}, boxes, {}};
+    Round round{number, gap, extra_corners, {}, boxes, {}, {}, {}};
     add_quad_meshes(round, aligned, sources, options.prices);
+    find_long_charts(round, aligned, options);
     std::vector<Layout> layouts = search_round(round, options, monitor);
     if (best.empty() || layouts.front().pe > best.front().pe) best = std::move(layouts);
     return highest_pe(round) >= pe_target(options);

@@ -134,7 +134,7 @@ Loops CutOutlines::loops_of(int chart, const ChartCuts& cuts) const {
   for (std::size_t l = 0; l < border.loops.size(); ++l) {
     OutlineLoop& loop = out.emplace_back(OutlineLoop{border.loops[l], border.at[l], {}});
     for (const int v : loop.vertices) {
-      if (!shape.empty()) loop.shape.push_back(value_at(cuts.mesh().supports[v], shape));
+      if (!shape.empty()) loop.shape.push_back(value_at(cuts.support_of(v), shape));
     }
   }
   return out;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cut/boundary_places.h"
 #include "geometry/boundary.h"
 #include "geometry/rest_triangle.h"
 #include "input/price_sides.h"
@@ -135,7 +136,10 @@ std::optional<CutAtlas> CutTrials::atlas_of(const std::vector<ChartCuts>& charts
     for (const std::vector<int>& path : charts[c].paths()) paths.push_back({c, path});
   }
   const std::vector<Chart>& sources = run_.input.set.charts;
-  CutAtlas out = cut_along(divided_atlas(meshes, sources, run_.input.set.points), sources, paths);
+  const auto& points = run_.input.set.points;
+  if (std::any_of(charts.begin(), charts.end(), [](const ChartCuts& cuts) { return cuts.divides_border(); }))
+    follow_divided(match_boundaries(meshes, points), paths);
+  CutAtlas out = cut_along(divided_atlas(meshes, sources, points), sources, paths);
   restore_shapes(shapes_, out);
   if (!part_along_cuts(charts, out)) return std::nullopt;
   return out;

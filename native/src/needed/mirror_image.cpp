@@ -155,7 +155,8 @@ std::vector<int> MirrorImage::points_of(int face) const {
 }
 
 std::optional<CornerRef> MirrorImage::of(const CornerRef& vertex) const {
-  if (images_.empty() || vertex.vertex >= static_cast<int>(corner_of_[vertex.chart].size())) return std::nullopt;
+  if (images_.empty() || vertex.vertex < 0 || vertex.vertex >= static_cast<int>(corner_of_[vertex.chart].size()))
+    return std::nullopt;
   const int corner = corner_of_[vertex.chart][vertex.vertex];
   if (corner < 0) return std::nullopt;
   std::vector<int> key = points_of(face_of_[corner]);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "geometry/boundary.h"
 #include "geometry/plane.h"
@@ -14,39 +15,96 @@
 namespace atlas_refine {
 namespace {
 
-constexpr double kSnap = 0.15;      // of an edge: a cut that crosses it nearer to an end runs through that
+// Of an edge: a cut that crosses it nearer to an end runs through that, where that is no farther aside than this part of the
+// length of the cut.
+constexpr double kSnap = 0.15;
 constexpr double kLeastRun = 0.7;   // of its length a cut runs at least before the border ends it
 constexpr double kCorridor = 0.15;  // of the chord's length: at this distance from it edges count double
 constexpr double kReach = 0.5;      // farther away no path runs
+
+// Border edges that are so long beside the side of a square with the chart's area are divided for places where cuts may end,
+// into parts of so much of that side; the number of parts is one of four, so that halves and quarters are among them.
+constexpr double kLongEdge = 1.5;
+constexpr double kPart = 0.25;
+constexpr int kMostParts = 64;
 
 double distance_to(const Chord& chord, const Vec2& at) { return closest_on_segment(at, chord.at[0], chord.at[1]).distance; }
 
 }  // namespace
 
 ChartCuts::ChartCuts(const Piece& piece, const Chart& chart, const SidePrices& prices, Cut cut)
-    : chart_(chart), prices_(prices), cut_(cut), mesh_(mesh_of(piece)), on_border_(boundary_flags(piece.mesh)) {}
+    : chart_(chart), prices_(prices), cut_(cut), mesh_(mesh_of(piece)), on_border_(boundary_flags(piece.mesh)) {
+  if (cut_ == Cut::Split) find_places();
+}
+
+void ChartCuts::find_places() {
+  double area = 0;
+  for (const Triangle& t : mesh_.triangles) area += 0.5 * doubled_area(mesh_.uvs[t[0]], mesh_.uvs[t[1]], mesh_.uvs[t[2]]);
+  const double side = std::sqrt(std::max(0.0, area));
+  for (const auto& loop : mesh_.boundary_loops()) {
+    for (const Side& s : loop) {
+      const int from = mesh_.from(s), to = mesh_.to(s);
+      const Vec2 a = mesh_.uvs[from], b = mesh_.uvs[to];
+      const double length = (b - a).norm();
+      if (!(length > kLongEdge * side)) continue;
+      const double wanted = std::min<double>(kMostParts, length / (kPart * side));
+      const int parts = 4 * static_cast<int>(std::ceil(wanted / 4));
+      for (int k = 1; k < parts; ++k) {
+        const double along = static_cast<double>(k) / parts;
+        places_.push_back({from, to, along, a + along * (b - a)});
+      }
+    }
+  }
+}
+
+/// Where a cut before it was left out the border may be another.
+bool ChartCuts::is_known(int number, const Vec2& at) const {
+  if (number < 0) return ~number < static_cast<int>(places_.size()) && places_[~number].at == at;
+  return number < mesh_.vertex_count() && mesh_.uvs[number] == at;
+}
+
+/// The vertex there, put there if need be.
+int ChartCuts::vertex_at(int number) {
+  if (number >= 0) return number;
+  Place& place = places_[~number];
+  if (place.vertex >= 0) return place.vertex;
+  int before = place.from, after = place.to;
+  double start = 0, end = 1;
+  for (const Place& other : places_) {
+    if (other.vertex < 0 || other.from != place.from || other.to != place.to) continue;
+    if (other.along < place.along && other.along > start) before = other.vertex, start = other.along;
+    if (other.along > place.along && other.along < end) after = other.vertex, end = other.along;
+  }
+  place.vertex = mesh_.split(mesh_.find_side(before, after), (place.along - start) / (end - start), place.at);
+  on_border_.resize(mesh_.vertex_count(), 0);
+  on_border_[place.vertex] = 1;
+  return place.vertex;
+}
 
 bool ChartCuts::add(const Chord& chord) {
-  // Where a cut before it was left out the border may be another.
-  const int count = mesh_.vertex_count();
-  if (chord.ends[0] >= count || chord.ends[1] >= count) return false;
-  if (mesh_.uvs[chord.ends[0]] != chord.at[0] || mesh_.uvs[chord.ends[1]] != chord.at[1] || !on_border_[chord.ends[0]])
-    return false;
-  const SplitMesh before = mesh_;
+  if (!is_known(chord.ends[0], chord.at[0]) || !is_known(chord.ends[1], chord.at[1])) return false;
+  const SplitMesh mesh = mesh_;
+  const std::vector<Place> places = places_;
+  if (cut_between({.ends = {vertex_at(chord.ends[0]), vertex_at(chord.ends[1])}, .at = chord.at})) return true;
+  mesh_ = mesh;
+  places_ = places;
+  on_border_.resize(mesh_.vertex_count());
+  return false;
+}
+
+/// Between vertices.
+bool ChartCuts::cut_between(const Chord& chord) {
+  if (!on_border_[chord.ends[0]]) return false;
   const std::vector<int> path = cut_ == Cut::Split ? straight(chord) : along_edges(chord);
   on_border_.resize(mesh_.vertex_count(), 0);
-  if (path.size() < 2) {
-    mesh_ = before;
-    on_border_.resize(mesh_.vertex_count());
-    return false;
-  }
+  if (path.size() < 2) return false;
   for (const int v : path) on_border_[v] = 1;
   paths_.push_back(path);
   return true;
 }
 
 /// The next vertex on the straight way from one to the target, where a triangle may be divided for it; empty where it leads out.
-std::vector<int> ChartCuts::crossing(int vertex, const Vec2& target, int end) {
+std::vector<int> ChartCuts::crossing(int vertex, const Vec2& target, int end, double most_aside) {
   const Vec2 at = mesh_.uvs[vertex], way = target - at;
   for (const Side& s : mesh_.fan(vertex)) {
     const int p = mesh_.to(s), q = mesh_.opposite(s);
@@ -57,8 +115,9 @@ std::vector<int> ChartCuts::crossing(int vertex, const Vec2& target, int end) {
     const double along = right / (right + left);
     const Vec2 meeting = (1 - along) * mesh_.uvs[p] + along * mesh_.uvs[q];
     if ((meeting - at).dot(way) <= 0) continue;
-    if (along < kSnap && to_p.dot(way) > 0) return {p};
-    if (along > 1 - kSnap && to_q.dot(way) > 0) return {q};
+    const auto may_snap = [&](const Vec2& to) { return to.dot(way) > 0 && std::abs(cross(to, way)) < most_aside * way.norm(); };
+    if (along < kSnap && may_snap(to_p)) return {p};
+    if (along > 1 - kSnap && may_snap(to_q)) return {q};
     const Side across{s.triangle, (s.side + 1) % 3};
     if (mesh_.is_boundary(across) || is_cut(p, q)) return {};
     return {mesh_.split(across, along, meeting)};
@@ -83,7 +142,7 @@ std::vector<int> ChartCuts::straight(const Chord& chord) {
   std::vector<int> path = {chord.ends[0]};
   const int most = mesh_.triangle_count();
   while (path.back() != end) {
-    const std::vector<int> next = crossing(path.back(), chord.at[1], end);
+    const std::vector<int> next = crossing(path.back(), chord.at[1], end, kSnap * chord.length());
     if (next.empty() || static_cast<int>(path.size()) > most) return {};
     const Side side = mesh_.find_side(path.back(), next.front());
     if (side.triangle < 0 || mesh_.is_boundary(side)) return {};
@@ -122,18 +181,57 @@ std::vector<Side> ChartCuts::cut_sides() const {
   return out;
 }
 
+/// Numbers of the places where no cut ends yet, by the vertices before and after them on the border.
+std::map<std::pair<int, int>, std::vector<int>> ChartCuts::free_places() const {
+  std::map<std::pair<int, int>, std::vector<int>> out;
+  std::vector<int> free;
+  int before = -1;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const Place& place = places_[k];
+    if (k == 0 || !on_one_edge(places_[k - 1], place)) before = place.from;
+    if (place.vertex < 0) free.push_back(~static_cast<int>(k));
+    const bool is_last = k + 1 == places_.size() || !on_one_edge(place, places_[k + 1]);
+    if (place.vertex >= 0) out[{std::exchange(before, place.vertex), place.vertex}] = std::exchange(free, {});
+    if (is_last) out[{before, place.to}] = std::exchange(free, {});
+  }
+  return out;
+}
+
 Border ChartCuts::border() const {
   SplitMesh opened = mesh_;
   const std::vector<int> copies = opened.cut(cut_sides());
-  Border out{.loops = opened.vertex_loops(), .at = {}};
-  for (std::vector<int>& loop : out.loops) {
+  const auto original = [&](int v) { return v < mesh_.vertex_count() ? v : copies[v - mesh_.vertex_count()]; };
+  std::map<int, int> number_of;  // of vertices at places
+  for (std::size_t k = 0; k < places_.size(); ++k) number_of[places_[k].vertex] = ~static_cast<int>(k);
+  const auto free = free_places();
+  Border out;
+  for (const std::vector<int>& loop : opened.vertex_loops()) {
+    std::vector<int>& numbers = out.loops.emplace_back();
     std::vector<Vec2>& at = out.at.emplace_back();
-    for (int& v : loop) {
-      at.push_back(opened.uvs[v]);
-      if (v >= mesh_.vertex_count()) v = copies[v - mesh_.vertex_count()];
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const int v = original(loop[k]), next = original(loop[(k + 1) % loop.size()]);
+      const auto known = number_of.find(v);
+      numbers.push_back(known == number_of.end() ? v : known->second);
+      at.push_back(mesh_.uvs[v]);
+      const auto between = free.find({v, next});
+      if (between == free.end()) continue;
+      for (const int number : between->second) {
+        numbers.push_back(number);
+        at.push_back(places_[~number].at);
+      }
     }
   }
   return out;
+}
+
+Support ChartCuts::support_of(int number) const {
+  if (number >= 0) return mesh_.supports[number];
+  const Place& place = places_[~number];
+  return between(mesh_.supports[place.from], mesh_.supports[place.to], place.along);
+}
+
+bool ChartCuts::divides_border() const {
+  return std::any_of(places_.begin(), places_.end(), [](const Place& place) { return place.vertex >= 0; });
 }
 
 double ChartCuts::length_on_surface(const Side& side) const {

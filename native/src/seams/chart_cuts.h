@@ -1,6 +1,8 @@
 // Cuts on one chart, each from border to border or to a point inside, added one after the other.
 #pragma once
 
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "atlas_refine/options.h"
@@ -19,8 +21,13 @@ class ChartCuts {
   /// where no way leads there. Ends are numbers of border().
   bool add(const Chord& chord);
 
-  /// The border that all cuts leave, numbered by the vertices of mesh().
+  /// The border that all cuts leave, numbered by the vertices of mesh(). Where faces may be divided, ends of cuts may also lie
+  /// inside long edges of the chart's border: such places have negative numbers, and are vertices only once a cut ends there.
   Border border() const;
+  /// Where on the chart a number of border() lies.
+  Support support_of(int number) const;
+  /// Whether cuts have made vertices on the chart's border.
+  bool divides_border() const;
   /// Divided where cuts cross it, still whole.
   const SplitMesh& mesh() const { return mesh_; }
   const std::vector<std::vector<int>>& paths() const { return paths_; }
@@ -30,9 +37,23 @@ class ChartCuts {
   double smallest_part() const;
 
  private:
+  /// A place inside an edge of the chart's border; those of one edge follow each other.
+  struct Place {
+    int from, to;  ///< of the chart
+    double along;
+    Vec2 at;
+    int vertex = -1;  ///< of the mesh, where a cut ends there
+  };
+
+  static bool on_one_edge(const Place& a, const Place& b) { return a.from == b.from && a.to == b.to; }
+  void find_places();
+  std::map<std::pair<int, int>, std::vector<int>> free_places() const;
+  bool is_known(int number, const Vec2& at) const;
+  int vertex_at(int number);
+  bool cut_between(const Chord& chord);
   std::vector<int> straight(const Chord& chord);
   std::vector<int> along_edges(const Chord& chord) const;
-  std::vector<int> crossing(int vertex, const Vec2& target, int end);
+  std::vector<int> crossing(int vertex, const Vec2& target, int end, double most_aside);
   bool is_cut(int p, int q) const;
   double length_on_surface(const Side& side) const;
   std::vector<Side> cut_sides() const;
@@ -41,6 +62,7 @@ class ChartCuts {
   const SidePrices& prices_;
   Cut cut_;
   SplitMesh mesh_;
+  std::vector<Place> places_;
   std::vector<char> on_border_;  // per vertex of the mesh
   std::vector<std::vector<int>> paths_;
 };

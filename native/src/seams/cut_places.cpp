@@ -55,6 +55,7 @@ std::vector<char> near_border(const ChartState& state, const Border& border) {
   std::vector<char> out(count, 0);
   for (const std::vector<int>& loop : border.loops) {
     for (const int v : loop) {
+      if (v < 0) continue;  // no vertex yet
       if (v < count) out[v] = 1;
       for (const Side& s : v < count ? std::vector<Side>() : mesh.fan(v)) {
         if (mesh.to(s) < count) out[mesh.to(s)] = 1;
