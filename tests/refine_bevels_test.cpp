@@ -1,7 +1,9 @@
 // Charts along whose borders a narrow bevel runs: its faces neither give way to the pressure of contacts nor stop the steps.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "refine_checks.h"
 #include "small_atlases.h"
@@ -10,13 +12,13 @@ namespace atlas_refine {
 namespace {
 
 /// A cross of arms 1 wide and 3 long, of the faces between these lines both ways.
-template <std::size_t kLines>
-Atlas cross(const double (&at)[kLines], double arm_end) {
+Atlas cross(const std::vector<double>& at, double arm_end) {
+  const std::size_t lines = at.size();
   const auto within = [&](std::size_t k) { return at[k] >= 1 && at[k + 1] <= arm_end; };
   std::vector<Vec3> positions;
-  std::vector<int> numbers(kLines * kLines, -1);
+  std::vector<int> numbers(lines * lines, -1);
   const auto vertex = [&](std::size_t i, std::size_t j) {
-    int& number = numbers[i * kLines + j];
+    int& number = numbers[i * lines + j];
     if (number < 0) {
       number = static_cast<int>(positions.size());
       positions.push_back({at[i], at[j], 0});
@@ -24,8 +26,8 @@ Atlas cross(const double (&at)[kLines], double arm_end) {
     return number;
   };
   std::vector<std::vector<int>> faces;
-  for (std::size_t i = 0; i + 1 < kLines; ++i) {
-    for (std::size_t j = 0; j + 1 < kLines; ++j) {
+  for (std::size_t i = 0; i + 1 < lines; ++i) {
+    for (std::size_t j = 0; j + 1 < lines; ++j) {
       if (within(i) || within(j)) faces.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
     }
   }
@@ -69,6 +71,28 @@ TEST(Bevels, FacesManyTimesSmallerThanTheOthersKeepTheirShapesAsThoseDo) {
     EXPECT_TRUE(result.bound_met);
     EXPECT_LT(result.after.stretch_max, 2.4) << width;
     EXPECT_LT(result.after.distortion, 1.045);
+  }
+}
+
+/// A sheet of faces 1 wide with `rows` rows of faces `width` wide between them, away from the origin.
+Atlas sheet_of_round_edges(int tiles, int rows, double width, double origin) {
+  std::vector<double> at;
+  for (int k = 0; k < tiles * (rows + 1); ++k) at.push_back(origin + k / (rows + 1) + width * (k % (rows + 1)));
+  return cross(at, INFINITY);
+}
+
+TEST(Bevels, FacesThatLoseTheirWidthInTheDigitsOfAFileGetItBack) {
+  struct Case {
+    int tiles, rows;
+    double width, origin;
+  };
+  constexpr double kDigits = 1e-6;
+  for (const Case& c : {Case{4, 4, 6e-7, 1}, Case{4, 3, 1e-7, 1 + 2.5e-7}, Case{3, 3, 1e-7, 1 + 2.5e-7}}) {
+    Atlas atlas = sheet_of_round_edges(c.tiles, c.rows, c.width, c.origin);
+    for (Vec2& uv : atlas.corner_uvs) uv = (uv / kDigits).array().round() * kDigits;
+    const RefineResult result = refine(atlas, {.pe_bound = 0.9, .box_aspect = 1});
+    EXPECT_TRUE(result.bound_met);
+    EXPECT_LT(result.after.distortion, 1.001) << c.width;
   }
 }
 

@@ -15,7 +15,8 @@ namespace atlas_refine {
 namespace {
 
 constexpr int kMostIterations = 80;
-constexpr double kSettled = 1e-3;  // relative change of the energy
+constexpr double kSettled = 1e-3;     // relative change of the energy
+constexpr double kSettledFall = 0.1;  // of eps then
 constexpr Damping kDamping{1e-10, 10, 1e24};
 
 /// The unknowns: vertices of the triangles that are not fixed.
@@ -145,11 +146,13 @@ std::optional<std::vector<Vec2>> untangle(const Tangle& tangle, std::vector<Vec2
     });
     if (fraction == 0) break;
     uvs = std::move(trial);
-    if (after > (1 - kSettled) * before && all_positive(tangle, uvs)) return uvs;
-    history.push_back({after, epsilon});
     const double least = least_determinant(tangle, uvs);
+    const bool settled = after > (1 - kSettled) * before && all_positive(tangle, uvs);
+    if (settled && least >= epsilon) return uvs;
+    history.push_back({after, epsilon});
     if (least < 0 && stay_folded(history)) return std::nullopt;
-    epsilon = next_epsilon(epsilon, least, before, after);
+    // Positive triangles far below eps are not felt yet: they would stay next to nothing.
+    epsilon = settled ? std::max(kLeastEpsilon, kSettledFall * epsilon) : next_epsilon(epsilon, least, before, after);
   }
   if (!all_positive(tangle, uvs)) return std::nullopt;
   return uvs;

@@ -62,8 +62,9 @@ std::string shortfall(const InputAtlas& input, const RefineOptions& options, con
     const std::string growth = options.seams == Seams::Needed && options.max_boundary_growth
                                    ? " and a boundary growth of " + number_text("%g", *options.max_boundary_growth)
                                    : "";
+    const bool may_try_harder = options.seams == Seams::Needed && options.effort != Effort::Best;
     return message_prefix(input.atlas) + "no atlas within " + limit + growth + " was found; the least distorted one has " +
-           figures;
+           figures + (may_try_harder ? "; more effort may find one" : "");
   }
   if (after.pe_fixed_aspect >= options.pe_bound) return "";
   return message_prefix(input.atlas) + "the bound " + number_text("%g", options.pe_bound) + " was not reached" +
