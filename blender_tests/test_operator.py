@@ -47,7 +47,7 @@ class Operator(unittest.TestCase):
             edge.use_seam = False
         self.assertEqual([name for name in changes(before, snapshot(obj)) if "uv" not in name.lower()], [])
 
-    def test_a_closed_chart_is_opened_along_a_marked_seam(self):
+    def test_a_sphere_seen_from_above_is_parted_where_stacks_are(self):
         bpy.ops.mesh.primitive_uv_sphere_add(segments=12, ring_count=8)
         obj = bpy.context.object
         layer = obj.data.uv_layers.active or obj.data.uv_layers.new()

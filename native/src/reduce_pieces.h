@@ -11,7 +11,7 @@ namespace atlas_refine {
 
 /// From so many pieces on these may be jammed and slide on and on, by next to nothing; another layout takes long and brings as
 /// little.
-constexpr std::size_t kHundredsOfPieces = 100;
+inline constexpr std::size_t kHundredsOfPieces = 100;
 
 struct ReducedPieces {
   CutAtlas atlas;

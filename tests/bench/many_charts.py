@@ -1,7 +1,7 @@
 """Writes an atlas of many charts: four of five have 2 to 8 triangles, the others are round, every second of those curved. With BORDER all
-are flat and smooth, with so many vertices along their borders.
+are flat and smooth, with so many vertices along their borders; with `triangles` each is one triangle.
 
-usage: many_charts.py CHARTS OUT.obj [BORDER]     then ./dev bench --profile --meshes OUT.obj, or build/atlas-refine OUT.obj -o ...
+usage: many_charts.py CHARTS OUT.obj [BORDER|triangles]     then ./dev bench --profile --meshes OUT.obj, or build/atlas-refine OUT.obj -o ...
 """
 
 import math
@@ -24,6 +24,12 @@ def polygon(rng):
 def disk(rng, bulge):
     rings, sides, size = rng.choice([2, 3, 4, 5]), rng.choice([9, 12, 16, 20]), math.exp(rng.gauss(1, 0.5))
     return wavy(rng, rings, sides, size, bulge)
+
+
+def triangle(rng):
+    """No lower than a fifth of its longest side."""
+    size, apex, height = rng.uniform(0.4, 1), rng.uniform(0, 1), rng.uniform(0.2, 1)
+    return [(0.0, 0.0, 0.0), (size, 0.0, 0.0), (size * apex, size * height, 0.0)], [(0, 1, 2)]
 
 
 def smooth(rng, border):
@@ -49,9 +55,12 @@ def wavy(rng, rings, sides, size, bulge):
     return points, triangles
 
 
-def charts(count, border=None, seed=1):
+def charts(count, kind=None, seed=1):
     rng = random.Random(seed)
-    if border:
+    if kind == "triangles":
+        return [triangle(rng) for _ in range(count)]
+    if kind:
+        border = int(kind)
         return [smooth(rng, border) for _ in range(count)]
     return [disk(rng, 0.6 * (k % 2)) if k % 5 == 0 else polygon(rng) for k in range(count)]
 
@@ -69,8 +78,8 @@ def in_rows(made):
     return places, max(side, y + height)
 
 
-def write(count, path, border=None):
-    made = charts(count, border)
+def write(count, path, kind=None):
+    made = charts(count, kind)
     places, side = in_rows(made)
     positions, uvs, faces, first = [], [], [], 1
     for k, (points, triangles) in enumerate(made):
@@ -86,4 +95,4 @@ def write(count, path, border=None):
 if __name__ == "__main__":
     if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
-    write(int(sys.argv[1]), sys.argv[2], *map(int, sys.argv[3:]))
+    write(int(sys.argv[1]), *sys.argv[2:])

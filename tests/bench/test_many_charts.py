@@ -24,3 +24,12 @@ def test_with_a_border_all_charts_have_as_many_vertices_along_it(tmp_path):
         sides = [frozenset((t[k], t[(k + 1) % 3])) for t in triangles for k in range(3)]
         assert sum(sides.count(side) == 1 for side in set(sides)) == 80
         assert all(z == points[0][2] for _, _, z in points)
+
+
+def test_each_chart_may_be_one_triangle(tmp_path):
+    path = tmp_path / "triangles.obj"
+    many_charts.write(60, path, "triangles")
+    found = check_atlas.check(str(path), str(path), None, None, cuts=False)
+    assert found["ok"], found["problems"]
+    assert found["charts"] == 60
+    assert all(len(triangles) == 1 for _, triangles in many_charts.charts(60, "triangles"))

@@ -1,4 +1,4 @@
-// A few flipped or zero-area faces are mended in place, and the others keep their shapes.
+// A few flipped, zero-area or crushed faces are mended in place, and the others keep their shapes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

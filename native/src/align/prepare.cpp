@@ -8,14 +8,11 @@
 #include <tuple>
 #include <utility>
 
-#include "geometry/plane.h"
-
 namespace atlas_refine {
 namespace {
 
 // Boundary edges are divided until they are at most this fraction of the boundary long: corners can only lie at vertices.
 constexpr double kLongestEdge = 0.08;
-constexpr double kLongEdge = 1.5;  // times the side of a square with the chart's area: an edge inside that is longer is long
 
 void divide_long_boundary_edges(SplitMesh& mesh) {
   for (const auto& loop : mesh.boundary_loops()) {
@@ -35,16 +32,13 @@ void divide_long_boundary_edges(SplitMesh& mesh) {
 }
 
 bool has_long_inner_edge(const SplitMesh& mesh) {
-  double area = 0, longest = 0;
+  const double least = kLongEdge * side_of_square(mesh);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Triangle& corners = mesh.triangles[t];
-    area += 0.5 * doubled_area(mesh.uvs[corners[0]], mesh.uvs[corners[1]], mesh.uvs[corners[2]]);
     for (int k = 0; k < 3; ++k) {
-      if (!mesh.is_boundary({t, k}))
-        longest = std::max(longest, (mesh.uvs[mesh.to({t, k})] - mesh.uvs[mesh.from({t, k})]).norm());
+      if (!mesh.is_boundary({t, k}) && (mesh.uvs[mesh.to({t, k})] - mesh.uvs[mesh.from({t, k})]).norm() > least) return true;
     }
   }
-  return longest > kLongEdge * std::sqrt(std::max(0.0, area));
+  return false;
 }
 
 /// Where boundary edges alone are divided, long faces become fans of slivers, which trails cross askew: the longest edge first,

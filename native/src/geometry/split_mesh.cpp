@@ -4,9 +4,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <tuple>
+
+#include "geometry/plane.h"
 
 namespace atlas_refine {
 namespace {
@@ -314,6 +317,12 @@ Chart SplitMesh::to_chart(const Chart& source) const {
   out.number = source.number;
   out.guards = guards_of_whole_faces(source, triangles, sources, supports);
   return out;
+}
+
+double side_of_square(const SplitMesh& mesh) {
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) area += 0.5 * doubled_area(mesh.uvs[t[0]], mesh.uvs[t[1]], mesh.uvs[t[2]]);
+  return std::sqrt(std::max(0.0, area));
 }
 
 }  // namespace atlas_refine

@@ -68,6 +68,11 @@ class SplitMesh {
   std::vector<int> one_triangle_;  // of each vertex
 };
 
+/// Of a square with the UV area of the mesh.
+double side_of_square(const SplitMesh& mesh);
+/// Times that side: edges that are longer belong to long faces.
+inline constexpr double kLongEdge = 1.5;
+
 /// The value at a supported point, from the values at the chart's vertices.
 Vec2 value_at(const Support& support, const std::vector<Vec2>& values);
 /// Weights on the three corners of a triangle of the chart, which the point must lie in.

@@ -86,11 +86,26 @@ Outline prepared_outline(const PlaceOptions& options, Chart& chart) {
   return outline;
 }
 
-void move_charts(const std::vector<Placement>& placements, std::vector<Chart>& charts) {
-  for (std::size_t c = 0; c < charts.size(); ++c) {
-    for (Vec2& uv : charts[c].uvs) uv = placements[c].apply(uv);
+/// Charts, and what the packer gets of them.
+struct Prepared {
+  std::vector<Chart> charts;
+  std::vector<Outline> outlines;
+  std::vector<double> areas;
+
+  Prepared(const std::vector<Chart>& given, const PlaceOptions& options) : charts(given) {
+    for (Chart& chart : charts) {
+      outlines.push_back(prepared_outline(options, chart));
+      areas.push_back(uv_area(chart));
+    }
   }
-}
+
+  std::vector<Chart> moved(const std::vector<Placement>& placements) && {
+    for (std::size_t c = 0; c < charts.size(); ++c) {
+      for (Vec2& uv : charts[c].uvs) uv = placements[c].apply(uv);
+    }
+    return std::move(charts);
+  }
+};
 
 /// The gap in the box that charts are likely to need: in that which reaches the target, where these may be packed so well.
 double likely_gap(const std::vector<Chart>& charts, const PlaceOptions& options, const RoomForGap& room) {
@@ -126,13 +141,9 @@ std::vector<Needle> needles_among(const std::vector<Chart>& charts) {
 
 std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOptions& options, Monitor& monitor) {
   const PhaseScope scope(Phase::Pack);
-  std::vector<Chart> placed = charts;
-  std::vector<Outline> outlines;
-  std::vector<double> areas;
-  for (Chart& chart : placed) {
-    outlines.push_back(prepared_outline(options, chart));
-    areas.push_back(uv_area(chart));
-  }
+  Prepared prepared(charts, options);
+  const std::vector<Outline>& outlines = prepared.outlines;
+  const std::vector<double>& areas = prepared.areas;
   require_no_needles(charts);
   require_room(options.gap, options.box_aspect, charts.size());
   const RoomForGap room(charts, options.gap, options.box_aspect);
@@ -159,29 +170,21 @@ std::vector<Chart> place_charts(const std::vector<Chart>& charts, const PlaceOpt
     const bool will_do = apart && (apart->pe >= options.target_pe || packing.pe < options.target_pe);
     packing = will_do ? *apart : pack_charts(outlines, areas, pack);
   }
-  move_charts(packing.placements, placed);
-  return placed;
+  return std::move(prepared).moved(packing.placements);
 }
 
 std::optional<std::vector<Chart>> place_in_rows(const std::vector<Chart>& charts, const PlaceOptions& options, Monitor& monitor) {
   const PhaseScope scope(Phase::Pack);
-  std::vector<Chart> placed = charts;
-  std::vector<Outline> outlines;
-  std::vector<double> areas;
-  for (Chart& chart : placed) {
-    outlines.push_back(prepared_outline(options, chart));
-    areas.push_back(uv_area(chart));
-  }
+  Prepared prepared(charts, options);
   // In a larger box than that of the target the gap would be wider.
   const Vec2 box = sides_of_area(uv_area(charts) / options.target_pe, options.box_aspect);
-  const auto packing = pack_charts_in_rows(outlines, areas,
+  const auto packing = pack_charts_in_rows(prepared.outlines, prepared.areas,
                                            {.gap = kFirstMore * options.gap.length(box),
                                             .box_aspect = options.box_aspect,
                                             .target_pe = options.target_pe,
                                             .tick = [&](double fraction) { monitor.report(fraction); }});
   if (!packing) return std::nullopt;
-  move_charts(packing->placements, placed);
-  return placed;
+  return std::move(prepared).moved(packing->placements);
 }
 
 std::optional<PlacedCharts> place_around(const std::vector<Chart>& charts, const Freedoms& freedom, const PlaceOptions& options,

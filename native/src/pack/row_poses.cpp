@@ -71,8 +71,8 @@ std::vector<Turn> lowest_turns(const std::vector<Vec2>& hull) {
   }
   std::stable_sort(by_height.begin(), by_height.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Turn> out;
-  for (const auto& [height, lowest] : by_height) {
-    const Turn& turn = lowest;  // structured bindings cannot be captured everywhere
+  for (const auto& candidate : by_height) {
+    const Turn& turn = candidate.second;
     const auto parallel = [&](const Turn& other) { return std::abs(turn.cosine * other.sine - turn.sine * other.cosine) < 1e-9; };
     if (out.size() < kEdges && std::none_of(out.begin(), out.end(), parallel)) out.push_back(turn);
   }

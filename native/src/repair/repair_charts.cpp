@@ -250,7 +250,7 @@ RepairedCharts repair_charts(const std::vector<Chart>& charts, const RepairOptio
 }
 
 std::string in_words(const ChartRepair& repair) {
-  const std::string had = repair.faces.empty() ? "overlapped itself, " : "had flipped or zero-area faces, ";
+  const std::string had = repair.faces.empty() ? "overlapped itself, " : "had flipped, zero-area or crushed faces, ";
   switch (repair.what) {
     case What::Parted:
       return "touched itself, touching borders drawn apart";

@@ -26,7 +26,7 @@ struct RepairOptions {
 struct ChartRepair {
   enum class What {
     Parted,      ///< touched itself: touching vertices were drawn apart
-    Untangled,   ///< flipped or zero-area faces were turned in place
+    Untangled,   ///< flipped, zero-area or crushed faces were turned in place
     DrawnApart,  ///< overlapped itself: embedded with the shapes of its UVs
     Embedded,    ///< overlapped itself: embedded anew
     Opened,      ///< had no boundary, or a handle: opened along edges and embedded
@@ -52,7 +52,7 @@ struct RepairedCharts {
 
 RepairedCharts repair_charts(const std::vector<Chart>& charts, const RepairOptions& options, Monitor& monitor);
 
-/// "had flipped or zero-area faces, mended in place"
+/// "had flipped, zero-area or crushed faces, mended in place"
 std::string in_words(const ChartRepair& repair);
 
 }  // namespace atlas_refine

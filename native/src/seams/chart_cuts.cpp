@@ -22,9 +22,8 @@ constexpr double kLeastRun = 0.7;   // of its length a cut runs at least before 
 constexpr double kCorridor = 0.15;  // of the chord's length: at this distance from it edges count double
 constexpr double kReach = 0.5;      // farther away no path runs
 
-// Border edges that are so long beside the side of a square with the chart's area are divided for places where cuts may end,
-// into parts of so much of that side; the number of parts is one of four, so that halves and quarters are among them.
-constexpr double kLongEdge = 1.5;
+// Long border edges have places where cuts may end, between parts of so much of the side of a square with the chart's area; the
+// number of parts is a multiple of four, so that halves and quarters are among them.
 constexpr double kPart = 0.25;
 constexpr int kMostParts = 64;
 
@@ -38,9 +37,7 @@ ChartCuts::ChartCuts(const Piece& piece, const Chart& chart, const SidePrices& p
 }
 
 void ChartCuts::find_places() {
-  double area = 0;
-  for (const Triangle& t : mesh_.triangles) area += 0.5 * doubled_area(mesh_.uvs[t[0]], mesh_.uvs[t[1]], mesh_.uvs[t[2]]);
-  const double side = std::sqrt(std::max(0.0, area));
+  const double side = side_of_square(mesh_);
   for (const auto& loop : mesh_.boundary_loops()) {
     for (const Side& s : loop) {
       const int from = mesh_.from(s), to = mesh_.to(s);
