@@ -377,5 +377,15 @@ TEST(RefineRectangles, SoAreThoseLongerThanRectanglesMayBe) {
   EXPECT_LT(result.boundary_growth, 0.3);  // straight across
 }
 
+TEST(RefineRectangles, ManyLongChartsAreCutNoMoreThanTheyMust) {
+  std::vector<Atlas> planks;
+  for (int k = 0; k < 30; ++k) planks.push_back(plank(20 + k));
+  RefineOptions options = rectangles();
+  options.box_aspect = 1;
+  const RefineResult result = refine_soundly(shapes::combine(planks), options);
+  EXPECT_LT(result.after.distortion, 1.001);
+  EXPECT_LT(result.boundary_growth, 0.07);
+}
+
 }  // namespace
 }  // namespace atlas_refine
