@@ -7,8 +7,8 @@ row with the program's own reason. Exit code 0 where every row is ok (or nothing
 --real: instead every atlas of uv/ as it was found and every mesh of no_uv/ after Blender's Smart UV Project, at 0.80: how each ends;
 exit code 1 where one crashes, hangs or is not valid.
 
---needed: instead every file without seams, with rectangles, and with needed ones at two limits of distortion (needed.json); exit
-code 1 where a limit is not kept or a result is not valid.
+--seams none needed rectangles: instead every file without seams, with rectangles, and with needed ones at two limits of distortion
+(needed.json); exit code 1 where a limit is not kept or a result is not valid.
 
 --equal-boundary: instead E_d of needed seams within +10, 20 and 40 % of boundary, of as many random necks, and of rectangles and
 needed seams at the boundary that these add; exit code 1 where a result is missing or not valid.
@@ -231,7 +231,13 @@ def parsed():
         "--real-options", type=options, default=("--open-closed",), help="of the program for those [--open-closed]"
     )
     parser.add_argument("--bounds", nargs="+", type=goal, help="0.8, 0.8:square, 0.8:16:9, ... [what is asked of the folder]")
-    parser.add_argument("--seams", nargs="+", choices=["none", "rectangles"], default=["none", "rectangles"])
+    parser.add_argument(
+        "--seams",
+        nargs="+",
+        choices=["none", "needed", "rectangles"],
+        default=["none", "rectangles"],
+        help="roads to take, where `needed` is among them all three in one table [none rectangles]",
+    )
     parser.add_argument("--files", default="*", help="pattern of file names, without .obj")
     parser.add_argument("--jobs", type=int, default=1, help="files at a time; timings are honest only with 1")
     parser.add_argument("--subdivide", type=int, default=0, metavar="N", help="every triangle first divided into 4, N times")
@@ -241,7 +247,6 @@ def parsed():
         "--old-options", type=options, default=(), help="further options of the commit's program, as --old-options=..."
     )
     parser.add_argument("--new-options", type=options, default=(), help="further options of this tree's program")
-    parser.add_argument("--needed", action="store_true", help="instead: seams none, rectangles, and needed within limits")
     parser.add_argument("--equal-boundary", action="store_true", help="instead: needed seams beside random necks and rectangles")
     parser.add_argument("--profile", action="store_true", help="instead: where the time goes [at 0.8, both roads]")
     parser.add_argument("--peers", action="store_true", help="instead: beside Blender's Pack Islands and xatlas")
@@ -257,6 +262,8 @@ def parsed():
     arguments = parser.parse_args()
     if arguments.meshes and (arguments.folders or arguments.study):
         parser.error("--meshes: not with --folders or --study, which are about the test meshes")
+    if "needed" in arguments.seams and (arguments.against or arguments.profile or arguments.determinism):
+        parser.error("--seams needed: only in a table of its own, or with --real")
     if arguments.peers and arguments.folders:
         parser.error("--peers: not with --folders; it has ten files of its own, or those of --meshes")
     if (arguments.against or arguments.profile) and not arguments.bounds:
@@ -273,8 +280,6 @@ def run_asked(arguments):
     arguments.out.mkdir(parents=True, exist_ok=True)
     if arguments.real:
         return run_real(arguments)
-    if arguments.needed:
-        return run_needed(arguments)
     if arguments.equal_boundary:
         return run_equal_boundary(arguments)
     if arguments.profile:
@@ -285,6 +290,8 @@ def run_asked(arguments):
         return run_blender(arguments)
     if arguments.study:
         return studies.run_study(arguments.study, arguments, arguments.found.get)
+    if "needed" in arguments.seams:
+        return run_needed(arguments)
     return (run_against if arguments.against else run_table)(arguments, arguments.out)
 
 
