@@ -61,9 +61,23 @@ TEST(PriceSides, DiagonalsStayWhole) {
 TEST(PriceSides, SharpEdgesAreCheap) {
   EXPECT_EQ(price_of_fold(0), 1);
   EXPECT_NEAR(price_of_fold(0.25 * std::numbers::pi), 0.75, 1e-12);
-  EXPECT_NEAR(price_of_fold(-0.25 * std::numbers::pi), 0.75, 1e-12);
   EXPECT_NEAR(price_of_fold(0.5 * std::numbers::pi), 0.5, 1e-12);
   EXPECT_NEAR(price_of_fold(0.7 * std::numbers::pi), 0.5, 1e-12);
+}
+
+TEST(PriceSides, HiddenEdgesAreCheap) {
+  // A fold inwards is seen from fewer sides.
+  EXPECT_LT(price_of_fold(-0.25 * std::numbers::pi), 0.74);
+  EXPECT_GT(price_of_fold(-0.25 * std::numbers::pi), 0.7);
+  Atlas under = strip(2);
+  under.positions.insert(under.positions.end(), {{-9, -9, 2}, {9, -9, 2}, {0, 9, 2}});
+  for (const int v : {6, 7, 8}) {
+    under.corner_vertices.push_back(v);
+    under.corner_uvs.push_back(under.positions[v].head<2>());
+  }
+  under.face_offsets.push_back(under.corner_count());
+  const ChartSet set = split_charts(under);
+  EXPECT_LT(price_between(under, set, price_sides(under, set, edges()), 2, 3), 0.6);
 }
 
 TEST(PriceSides, EdgesWantedAndNot) {

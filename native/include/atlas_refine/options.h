@@ -114,7 +114,9 @@ struct RefineOptions {
   /// One weight > 0 per face for its part in the objective (section 4, "Local control"); empty = all 1. Only ratios count.
   std::vector<double> importance;
 
-  Cut cut = Cut::Split;  ///< of all cuts: rectangles, holes, closed charts
+  /// Of all cuts: rectangles, holes, closed charts. Along edges they like those that bend and those that other parts of the mesh
+  /// hide, each down to half of its length's price.
+  Cut cut = Cut::Split;
   /// Charts without a boundary, or with a handle, may be opened along edges where seams are None too: they cannot be flat
   /// otherwise, and are left as they are, by name.
   bool open_closed = false;

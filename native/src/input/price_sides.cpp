@@ -1,4 +1,4 @@
-// Edges of polygons by how they bend, and by what the artist said of them.
+// Edges of polygons by how they bend, who sees them, and what the artist said of them.
 #include "input/price_sides.h"
 
 #include <Eigen/Geometry>
@@ -9,11 +9,14 @@
 
 #include "geometry/split_mesh.h"
 #include "input/places.h"
+#include "input/visibility.h"
+#include "support/parallel.h"
 
 namespace atlas_refine {
 namespace {
 
-constexpr double kSharpPrice = 0.5;  // of an edge that bends by a right angle or more
+constexpr double kSharpPrice = 0.5;   // of an edge that bends by a right angle or more
+constexpr double kHiddenPrice = 0.5;  // of an edge that nobody sees
 
 using VertexPairs = std::vector<std::array<int, 2>>;
 
@@ -41,7 +44,7 @@ struct Wishes {
   const Atlas& atlas;
   std::vector<int> place;
   SpaceEdges forbidden, preferred;
-  bool along_edges;
+  std::vector<double> visible;  ///< per vertex of the input; empty: seams do not run along edges
 };
 
 /// One chart and where its vertices lie in space.
@@ -67,10 +70,12 @@ struct ChartInSpace {
     const auto edge = std::minmax(wishes.place[vertices[mesh.from(side)]], wishes.place[vertices[mesh.to(side)]]);
     if (wishes.forbidden.contains(edge)) return kNoSeam;
     const int across = mesh.neighbours[side.triangle][side.side];
-    if (!wishes.along_edges || across < 0) return 1;
+    if (wishes.visible.empty() || across < 0) return 1;
     if (chart.triangle_faces[side.triangle] == chart.triangle_faces[across]) return kNoSeam;
     const double sharp = 1 - (1 - kSharpPrice) * bend(wishes, side);
-    return wishes.preferred.contains(edge) ? kPreferredSeam * sharp : sharp;
+    const double visible = 0.5 * (wishes.visible[edge.first] + wishes.visible[edge.second]);
+    const double price = sharp * (1 - (1 - kHiddenPrice) * (1 - visible));
+    return wishes.preferred.contains(edge) ? kPreferredSeam * price : price;
   }
 };
 
@@ -87,7 +92,8 @@ SidePrices prices_of(const Wishes& wishes, const ChartInSpace& chart) {
 std::vector<SidePrices> price_sides(const Atlas& atlas, const ChartSet& set, const RefineOptions& options) {
   std::vector<SidePrices> out(set.charts.size());
   if (options.cut == Cut::Split && options.no_seam.empty()) return out;
-  Wishes wishes{atlas, places(atlas), {}, {}, options.cut == Cut::Edges};
+  Wishes wishes{atlas, places(atlas), {}, {}, {}};
+  if (options.cut == Cut::Edges) wishes.visible = visibility(atlas, resolve_threads(options.threads));
   wishes.forbidden = space_edges(wishes.place, options.no_seam);
   wishes.preferred = space_edges(wishes.place, options.prefer_seam);
   std::vector<std::vector<int>> corners = corners_at_vertices(set);

@@ -53,7 +53,7 @@ CutPath::CutPath(const CutTrials& trials, const RefineOptions& options, bool tho
   const SqueezedTrial& whole = found.squeezed.front();
   bias_.learn(whole);
   best_ = measured(whole.trial);
-  expand(whole.trial, best_, &whole);
+  expand(whole.trial, 1, best_, &whole);
 }
 
 bool CutPath::advance(double most_growth) {
@@ -81,8 +81,7 @@ std::vector<CutSet*> CutPath::front(double most_growth) {
   for (CutSet& set : sets_) {
     if (set.is_forecast && set.trial.growth <= std::min(most_growth, passed_)) known.push_back(&set);
   }
-  std::stable_sort(known.begin(), known.end(),
-                   [](const CutSet* a, const CutSet* b) { return a->trial.growth < b->trial.growth; });
+  std::stable_sort(known.begin(), known.end(), [](const CutSet* a, const CutSet* b) { return a->cost() < b->cost(); });
   for (CutSet* set : known) {
     if (set->excess < (out.empty() ? measured(found_.squeezed.front().trial) : out.back()->excess)) out.push_back(set);
   }
@@ -110,7 +109,9 @@ double CutPath::foreseen(const CutSet& set) const {
   return set.before - (set.gain > 0 ? savings_.faith() : 1) * set.gain;
 }
 
-double CutPath::rate_of(const CutSet& set) const { return (best_ - foreseen(set)) / (set.trial.growth - passed_ + kShortest); }
+double CutPath::rate_of(const CutSet& set) const {
+  return (best_ - foreseen(set)) / (set.price * (set.trial.growth - passed_) + kShortest);
+}
 
 /// Those that may be next, what saves most for its length first.
 std::vector<CutSet*> CutPath::ahead(double reach) {
@@ -177,23 +178,24 @@ void CutPath::pass(CutSet& set) {
   best_ = std::min(best_, set.excess);
   is_stuck_ = false;
   if (!may_forecast()) return;
-  if (squeezed) return expand(squeezed->trial, set.excess, squeezed);
-  if (trials_.places_anew()) expand(set.trial, set.excess, nullptr);
+  if (squeezed) return expand(squeezed->trial, set.price, set.excess, squeezed);
+  if (trials_.places_anew()) expand(set.trial, set.price, set.excess, nullptr);
 }
 
 /// One cut more, at the best places and at those that have saved something before.
-void CutPath::expand(const Trial& present, double before, const SqueezedTrial* squeezed) {
+void CutPath::expand(const Trial& present, double own_price, double before, const SqueezedTrial* squeezed) {
   const Budget budget = budget_of(options_.effort);
   std::vector<CutPlace> places = trials_.places(present, present.cuts.empty() ? budget.first_places : budget.places, budget.tips);
   savings_.add_useful(places);
   const Previews previews = trials_.previews(present, places);
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const auto& [growth, strain] = previews.with[k];
+    const auto& [growth, strain, price] = previews.with[k];
     if (has(present.cuts, places[k]) || !std::isfinite(growth)) continue;
     CutSet set{.trial = {.cuts = present.cuts, .growth = present.growth + growth}, .before = before, .present = squeezed};
     set.trial.cuts.push_back(places[k]);
     set.less_strain = strain ? previews.strain - *strain : 0;
     set.gain = savings_.foresee(places[k], set.less_strain, before);
+    if (set.trial.growth > 0) set.price = (own_price * present.growth + price * growth) / set.trial.growth;
     add(std::move(set));
   }
 }
@@ -206,7 +208,7 @@ bool CutPath::add_with_one_less(const CutSet& set) {
   bool out = false;
   const double before = set.excess, growth = set.trial.growth;
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-    CutSet less{.trial = {.cuts = cuts, .growth = growth - trials_.growth_of(cuts[k])}, .before = before};
+    CutSet less{.trial = {.cuts = cuts, .growth = growth - trials_.growth_of(cuts[k])}, .before = before, .price = set.price};
     less.trial.cuts.erase(less.trial.cuts.begin() + static_cast<std::ptrdiff_t>(k));
     less.gain = -kRemoved * std::max(kLeastGain, savings_.foresee(cuts[k], 0, before));
     out |= add(std::move(less));

@@ -17,6 +17,9 @@ struct CutSet {
   double gain = 0;                         ///< of that, as it is foreseen; negative of one cut less
   const SqueezedTrial* present = nullptr;  ///< that set, where it is one cut more
   double less_strain = 0;                  ///< than that set has
+  double price = 1;                        ///< of the edges of its cuts, the mean for each length
+
+  double cost() const { return price * trial.growth; }
   bool is_forecast = false;
   double excess = 0;  ///< as it is forecast
   bool is_out = false;
@@ -35,7 +38,8 @@ class CutPath {
   bool advance(double most_growth);
   /// All sets with as much boundary that the path will come to are known.
   double passed() const { return passed_; }
-  /// What was passed and adds at most that: sets that none with less boundary is as good as, by growing boundary.
+  /// What was passed and adds at most that: sets that none whose seams cost less is as good as, by growing cost; that is their
+  /// boundary, by the prices of its edges where seams run along edges.
   std::vector<CutSet*> front(double most_growth);
   double likely_distortion(const CutSet& set) const { return bias_.distortion_of(set.trial); }
   double likely_stretch(const CutSet& set) const { return bias_.stretch_of(set.trial); }
@@ -52,7 +56,7 @@ class CutPath {
   CutSet* next(double reach);
   void forecast(const std::vector<CutSet*>& sets);
   void pass(CutSet& set);
-  void expand(const Trial& present, double before, const SqueezedTrial* squeezed);
+  void expand(const Trial& present, double own_price, double before, const SqueezedTrial* squeezed);
   bool add_with_one_less(const CutSet& set);
   bool add(CutSet set);
   ProgressRange step();

@@ -363,7 +363,9 @@ void CutTrials::preview_along_edges(const std::vector<ChartCuts>& charts, const 
       if (!cuts.add(place.chord)) continue;
       paths[k] = cuts.paths().back();
       if (paths[k].front() > paths[k].back()) std::reverse(paths[k].begin(), paths[k].end());
-      if (boundary_ > 0) out[k].growth = 2 * (cuts.length() - present.length()) / boundary_;
+      const double length = cuts.length() - present.length();
+      if (boundary_ > 0) out[k].growth = 2 * length / boundary_;
+      if (length > 0) out[k].price = (cuts.cost() - present.cost()) / length;
       if (outlines) out[k].strain = outlines->strain_with(place.chart, cuts);
     }
   });

@@ -64,6 +64,7 @@ struct ForecastTerms {
 struct Preview {
   double growth;                 ///< of the boundary by this cut alone; infinite where it cannot be made
   std::optional<double> strain;  ///< CutOutlines::strain() with it; nothing of atlases of many charts
+  double price = 1;              ///< of its edges, the mean for each length; 1 where faces may be divided
 };
 
 /// Of some cuts, and one more at some places.

@@ -244,6 +244,12 @@ double ChartCuts::length() const {
   return sum;
 }
 
+double ChartCuts::cost() const {
+  double sum = 0;
+  for (const Side& s : cut_sides()) sum += length_on_surface(s) * (prices_.empty() ? 1 : prices_[s.triangle][s.side]);
+  return sum;
+}
+
 double ChartCuts::smallest_part() const {
   std::vector<std::array<char, 3>> is_cut(mesh_.triangle_count(), {0, 0, 0});
   for (const Side& s : cut_sides()) {

@@ -33,6 +33,8 @@ class ChartCuts {
   const std::vector<std::vector<int>>& paths() const { return paths_; }
   /// Of the cuts, on the surface.
   double length() const;
+  /// The same, each edge by its price; with Cut::Edges only.
+  double cost() const;
   /// The smallest of the parts that the cuts leave, on the surface.
   double smallest_part() const;
 
