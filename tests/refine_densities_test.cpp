@@ -126,10 +126,46 @@ TEST(Densities, CapsAreNotBlownUpBesideAStripThatIsNotToStretch) {
     EXPECT_NE(said.find("would grow to over 1.5 times the texel density of the others"), std::string::npos) << said;
     ASSERT_EQ(best.warnings.size(), 2U);
     EXPECT_NE(best.warnings.front().find("would grow"), std::string::npos) << best.warnings.front();
-    const double times = std::max(growth(best, 1), growth(best, 2));
-    EXPECT_NE(best.warnings.back().find("up to " + number_text("%.2f", times) + " times what it was"), std::string::npos)
-        << best.warnings.back();
+    const std::string times = number_text("%.2f", growth_of_caps(best));
+    EXPECT_NE(best.warnings.back().find("up to " + times + " times what it was"), std::string::npos) << best.warnings.back();
   }
+}
+
+/// Nine sheets side by side, one vertex on the border of the first dragged away.
+Atlas with_stray_vertex(const Vec2& to) {
+  std::vector<Atlas> parts;
+  for (int k = 0; k < 9; ++k) {
+    parts.push_back(shapes::quad_grid(6, 6));
+    for (Vec2& uv : parts.back().corner_uvs) uv += Vec2(1.2 * k, 0);
+  }
+  Atlas out = shapes::combine(parts);
+  const Vec2 corner = out.corner_uvs.front();
+  for (int c = 0; c < out.face_offsets[36]; ++c) {
+    if (out.corner_uvs[c] == corner) out.corner_uvs[c] = to;
+  }
+  return out;
+}
+
+TEST(Densities, AStrayVertexTellsNothingOfItsChartsDensity) {
+  for (const double far : {-3.0, -50.0, -1e5}) {
+    const RefineResult result = testing::refine_soundly(with_stray_vertex({far, far}), keep());
+    double least = 1e9, most = 0;
+    for (const ChartReport& chart : result.charts) {
+      least = std::min(least, chart.density_after);
+      most = std::max(most, chart.density_after);
+    }
+    EXPECT_LT(most, 1.1 * least) << far;
+    for (const std::string& warning : result.warnings) {
+      if (warning.find("texel density") != std::string::npos) EXPECT_EQ(warning.find("chart 0"), 0U) << warning;
+    }
+  }
+}
+
+TEST(Densities, WhereEqualOnesCannotBeHadThatIsTold) {
+  RefineOptions options = keep();
+  options.density = Density::Equal;
+  EXPECT_TRUE(says(testing::refine_soundly(pipe(20), options).warnings, "times that of the others"));
+  EXPECT_FALSE(says(testing::refine_soundly(pipe(2), options).warnings, "times that of the others"));
 }
 
 TEST(Densities, ASmallerGapIsNotTriedForThem) {

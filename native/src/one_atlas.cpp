@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "atlas_refine/error.h"
 #include "input/check_atlas.h"
@@ -235,25 +236,44 @@ Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, Certif
 }
 
 /// With kept densities the charts whose texel density has changed all the same.
-void warn_of_density(const InputAtlas& input, const RefineOptions& options, const std::vector<ChartReport>& charts,
-                     Journal& journal) {
-  constexpr double kNotable = 0.1;
-  if (options.density != Density::Keep) return;
+/// Per chart that is not fixed its texel density by what was wanted of it: with Density::Keep what it was. Those of half of the
+/// surface are below 1: a single chart whose area was no measure does not change what is told of the others.
+std::vector<std::pair<int, double>> density_changes(const InputAtlas& input, const RefineOptions& options,
+                                                    const std::vector<ChartReport>& charts) {
   const Freedoms freedom = freedom_of(input.set, options);
-  std::vector<int> changed;
-  double least = 1, most = 1;
+  std::vector<std::pair<int, double>> out;
+  std::vector<std::pair<double, double>> with_area;
+  double half = 0;
   for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
     if (is_fixed(freedom, c) || !(charts[c].density_before > 0)) continue;
-    const double times = charts[c].density_after / charts[c].density_before;
-    if (std::abs(times - 1) > kNotable) changed.push_back(input.set.charts[c].number);
+    out.emplace_back(c, charts[c].density_after / (options.density == Density::Keep ? charts[c].density_before : 1));
+    with_area.emplace_back(out.back().second, charts[c].area);
+    half += 0.5 * charts[c].area;
+  }
+  std::sort(with_area.begin(), with_area.end());
+  double below = 0, usual = 1;
+  for (std::size_t k = 0; k < with_area.size() && below < half; below += with_area[k++].second) usual = with_area[k].first;
+  for (auto& change : out) change.second /= usual;
+  return out;
+}
+
+void warn_of_density(const InputAtlas& input, const RefineOptions& options, const std::vector<ChartReport>& charts,
+                     Journal& journal) {
+  const bool keeps = options.density == Density::Keep;
+  const double notable = keeps ? 1.1 : kMostDense;
+  std::vector<int> changed;
+  double least = 1, most = 1;
+  for (const auto& [c, times] : density_changes(input, options, charts)) {
+    if (times > notable || times < 1 / notable) changed.push_back(input.set.charts[c].number);
     least = std::min(least, times);
     most = std::max(most, times);
   }
   if (changed.empty()) return;
-  const std::string down = least < 1 - kNotable ? "down to " + number_text("%.2f", least) : "";
-  const std::string up = most > 1 + kNotable ? "up to " + number_text("%.2f", most) : "";
-  journal.warnings.push_back(charts_named(changed) + ": bent or mended, with a texel density " + down +
-                             (down.empty() || up.empty() ? "" : " and ") + up + " times what it was");
+  const std::string down = least < 1 / notable ? "down to " + number_text("%.2f", least) : "";
+  const std::string up = most > notable ? "up to " + number_text("%.2f", most) : "";
+  journal.warnings.push_back(charts_named(changed) + (keeps ? ": bent or mended" : ": bent") + ", with a texel density " + down +
+                             (down.empty() || up.empty() ? "" : " and ") + up +
+                             (keeps ? " times what it was" : " times that of the others"));
 }
 
 void warn_of_end(const Solution& solution, Journal& journal) {

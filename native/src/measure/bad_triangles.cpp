@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
@@ -19,6 +20,8 @@ namespace {
 
 /// e-folds from the chart's median stretch, above which a triangle at a bad one is drawn out.
 constexpr double kDrawnOut = 1.2;
+/// The same wherever a triangle is: no map of a surface without folds differs so much from place to place.
+constexpr double kOutOfScale = 2;
 /// Of the chart's size: triangles lower than that may flip where the chart is moved.
 constexpr double kRounding = 1e-13;
 /// Least / largest stretch of a triangle, as a part of what the chart has elsewhere, below which it is next to flat: the engine
@@ -49,6 +52,21 @@ std::array<double, 2> usual_log_stretch(const Chart& chart, const std::vector<ch
     for (int k = 0; k < 2; ++k) stretch[k].push_back(own[k]);
   }
   return {median(stretch[0]), median(stretch[1])};
+}
+
+/// What half of the surface of all but the bad triangles is below.
+double median_on_surface(const Chart& chart, const std::vector<double>& values, const std::vector<char>& bad) {
+  std::vector<std::pair<double, double>> with_area;
+  double half = 0;
+  for (std::size_t t = 0; t < bad.size(); ++t) {
+    if (bad[t]) continue;
+    with_area.emplace_back(values[t], chart.surface[t].area);
+    half += 0.5 * chart.surface[t].area;
+  }
+  std::sort(with_area.begin(), with_area.end());
+  std::size_t k = 0;
+  for (double below = with_area[0].second; below < half && k + 1 < with_area.size(); below += with_area[++k].second) continue;
+  return with_area[k].first;
 }
 
 /// Flipped, without area, or so thin that rounding may flip them.
@@ -107,6 +125,19 @@ std::vector<char> misshapen_triangles(const Chart& chart) {
     bad[t] = std::max(std::abs(own[0] - usual[0]), std::abs(own[1] - usual[1])) > kDrawnOut;
   }
   return bad;
+}
+
+std::vector<char> triangles_out_of_scale(const Chart& chart) {
+  std::vector<char> out = misshapen_triangles(chart);
+  const auto count = static_cast<int>(out.size());
+  if (std::count(out.begin(), out.end(), 1) == count) return out;
+  std::vector<double> largest(count, 0);
+  parallel_ranges(count, present_threads(), kGrain, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) largest[t] = out[t] ? 0 : log_stretch(chart, t)[0];
+  });
+  const double usual = median_on_surface(chart, largest, out);
+  for (int t = 0; t < count; ++t) out[t] = out[t] || largest[t] - usual > kOutOfScale;
+  return out;
 }
 
 bool mostly_bad(const Chart& chart, const std::vector<char>& bad) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/plane.h"
 #include "measure/bad_triangles.h"
 #include "measure/distortion.h"
 
@@ -17,10 +18,19 @@ double usable_density(const Chart& chart) {
 }
 
 /// 0 where the UVs tell none: most of them are flipped or without area, or what is left has no shape, so that its area is that of
-/// something else.
+/// something else. Triangles that a stray vertex has drawn out do not count.
 double density_told_by_uvs(const Chart& chart) {
   if (mostly_bad(chart, bad_triangles(chart)) || !(sums_of_good(chart).best_energy() < kLine)) return 0;
-  return usable_density(chart);
+  const std::vector<char> out_of_scale = triangles_out_of_scale(chart);
+  if (mostly_bad(chart, out_of_scale)) return usable_density(chart);
+  double in_texture = 0, on_surface = 0;
+  for (std::size_t t = 0; t < out_of_scale.size(); ++t) {
+    if (out_of_scale[t]) continue;
+    const auto [a, b, c] = chart.triangles[t];
+    in_texture += 0.5 * doubled_area(chart.uvs[a], chart.uvs[b], chart.uvs[c]);
+    on_surface += chart.surface[t].area;
+  }
+  return std::sqrt(in_texture / on_surface);
 }
 
 std::vector<Vec2> input_uvs(const Piece& piece, const std::vector<Chart>& input) {
