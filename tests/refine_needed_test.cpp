@@ -144,20 +144,6 @@ TEST(Needed, ManyChartsKeepTheBudget) {
   }
 }
 
-TEST(Needed, WhereNoCutsKeepTheLimitRectanglesDo) {
-  const Atlas comb = shapes::mesh(shapes::comb(), 0.1, 0), u = shapes::mesh(shapes::u_shape(), 0.1, 0);
-  RefineOptions options = needed_within(1.0001);
-  options.box_aspect = 1;
-  options.pe_bound = 0.87;
-  const RefineResult result = refine(shapes::combine({comb, u, u}), options);  // the second U stays on the first
-  EXPECT_TRUE(result.bound_met);
-  EXPECT_LE(result.after.distortion, 1.0001);
-  ASSERT_TRUE(result.rectangles.has_value());
-  EXPECT_EQ(result.cuts->cuts, result.rectangles->trails);
-  ASSERT_EQ(result.fallbacks.size(), 1u);
-  EXPECT_NE(result.fallbacks[0].find("cut into rectangles"), std::string::npos);
-}
-
 TEST(Needed, AboveTheLimitWhatPromisesNothingIsForecastAsWell) {
   RefineOptions options = needed_within(1.0001);
   options.pe_bound = 0.85;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "atlas_refine/error.h"
+#include "geometry/boundary.h"
 #include "input/check_atlas.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
@@ -140,9 +141,26 @@ std::string compare_with_whole(const Refinement& run, const CertifiedSolution& c
 }
 
 /// Nothing is asked of an input that holds already, but another size. Charts that are turned over need places of their own.
-bool is_only_scaled(const InputAtlas& input, const RefineOptions& options) {
+bool is_only_scaled(const InputAtlas& input) {
   const auto& mirrored = input.set.mirrored;
-  return !options.relax && std::find(mirrored.begin(), mirrored.end(), true) == mirrored.end();
+  return std::find(mirrored.begin(), mirrored.end(), true) == mirrored.end();
+}
+
+/// What holds all that is asked may be cut all the same where that pays, and a trade-off is wanted whatever holds.
+bool may_be_cut(const RefineOptions& options, const Measures& before) {
+  constexpr double kWorthASearch = 0.005;  // of E_d: a cut of a tenth of that growth saves no more
+  if (options.seams != Seams::Needed) return false;
+  return options.trade_off || (!limits_of(options).any() && before.distortion > 1 + kWorthASearch);
+}
+
+/// Whether the cuts save what their seams cost, against an input that holds all that is asked.
+bool pays(const InputAtlas& input, const RefineOptions& options, const CertifiedSolution& result) {
+  if (!may_be_cut(options, input.measures)) return result.atlas.after.distortion < input.measures.distortion;
+  if (options.point) return true;
+  if (result.solution.intervention != Intervention::Cut) return false;
+  const double before = boundary_on_surface(input.set.charts), after = boundary_on_surface(meshes_of(result.solution.atlas));
+  const double growth = before > 0 ? after / before - 1 : 0;
+  return result.atlas.after.distortion + options.seam_cost * growth < input.measures.distortion;
 }
 
 Solution as_it_lies(const InputAtlas& input, const RefineOptions& options) {
@@ -235,7 +253,6 @@ Outcome outcome_of(const InputAtlas& input, const RefineOptions& options, Certif
   return out;
 }
 
-/// With kept densities the charts whose texel density has changed all the same.
 /// Per chart that is not fixed its texel density by what was wanted of it: with Density::Keep what it was. Those of half of the
 /// surface are below 1: a single chart whose area was no measure does not change what is told of the others.
 std::vector<std::pair<int, double>> density_changes(const InputAtlas& input, const RefineOptions& options,
@@ -257,6 +274,7 @@ std::vector<std::pair<int, double>> density_changes(const InputAtlas& input, con
   return out;
 }
 
+/// Of charts whose texel density has changed all the same, or is not that of the others as it was to be.
 void warn_of_density(const InputAtlas& input, const RefineOptions& options, const std::vector<ChartReport>& charts,
                      Journal& journal) {
   const bool keeps = options.density == Density::Keep;
@@ -348,19 +366,25 @@ Outcome refine_one(const InputAtlas& input, const RefineOptions& options, const 
   const RefineOptions within = within_border(options);
   const bool holds_but_size = holds_already(input, freedom, options, within);
   const bool holds = holds_but_size && has_density(input, options);
-  if (holds && !options.relax) return unchanged(input, options);
+  const bool stays = !options.relax && !may_be_cut(options, input.measures);
+  if (holds && stays) return unchanged(input, options);
   if (all_fixed(freedom)) return all_locked(input, options, holds);
   if (monitor.finishing()) return stopped(input, options, holds, journal);
 
   const Refinement run{input, within, monitor, journal, resolve_threads(options.threads), options};
   const Journal::Mark before = journal.mark();
-  CertifiedSolution result = holds_but_size && is_only_scaled(input, options) ? certified(run, as_it_lies(input, options), range)
+  CertifiedSolution result = holds_but_size && stays && is_only_scaled(input) ? certified(run, as_it_lies(input, options), range)
                                                                               : solve_within_stretch(run, range);
   if (result.solution.ended == Ended::Stopped && !better_than_input(input, freedom, options, within, result.atlas.after)) {
     journal.back_to(before);
     return stopped(input, options, holds, journal);
   }
-  if (holds && result.atlas.after.distortion >= input.measures.distortion) return unchanged(input, options);
+  if (holds && !pays(input, options, result)) {
+    journal.back_to(before);
+    Outcome out = unchanged(input, options);
+    out.cuts = std::move(result.solution.cuts);
+    return out;
+  }
   journal.show(to_string(result.solution.intervention), result.atlas.stored);
   warn_of_end(result.solution, journal);
   warn_of_density(input, options, result.atlas.charts, journal);

@@ -16,8 +16,8 @@ std::vector<char> bad_triangles(const Chart& chart);
 /// surface is far from what the chart has elsewhere. They have no shape to keep.
 std::vector<char> misshapen_triangles(const Chart& chart);
 
-/// The same, and triangles drawn out many times farther than the chart is elsewhere: at a vertex that was dragged away. Their area
-/// tells nothing of the chart's texel density.
+/// The same, and triangles drawn out many times farther than the chart is elsewhere: at a vertex that was dragged away. Their
+/// area tells nothing of the chart's texel density.
 std::vector<char> triangles_out_of_scale(const Chart& chart);
 
 /// Whether most of the chart's surface lies in `bad` triangles: then there is no shape to keep, and no size.

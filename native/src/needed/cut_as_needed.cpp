@@ -17,22 +17,29 @@ constexpr std::size_t kMostPoints = 24;  // of a trade-off
 constexpr int kPackings = 2;             // more of several charts before any is cut, and of pieces that nearly keep a limit
 constexpr double kByChance = 5e-4;       // of E_d: so much more or less other packings of a file came to
 constexpr double kAnyGrowth = std::numeric_limits<double>::infinity();
-constexpr double kAsGood = 1.02;          // times the boundary, or the cost: what symmetric cuts may have more
 constexpr double kFewOfRectangles = 0.4;  // growth: rectangles add less to 5 of the 46 files of one chart in the bench only
+// Without a limit rectangles are looked at where the best costs more; of few triangles they take next to nothing:
+constexpr double kDear = 0.05;
+constexpr double kCheap = 0.005;
 // Of the excess above the limit, or of the least cost: what is forecast so near may keep it, or be it.
 constexpr double kNear = 0.1;
 constexpr double kNearlyKept = 0.2;  // what came so near may keep it in another packing
 
-/// Several charts are packed by chance: another packing may keep a limit of E_d that the first nearly kept.
-SqueezedTrial without_cuts(CutTrials& trials, const Wish& wish, const ProgressRange& range) {
+/// Charts that need not be bent for the bound may still lose what the limit is missed by, or what cuts would save: that takes no
+/// seam. Several charts are packed by chance: another packing may keep a limit of E_d that the first nearly kept.
+SqueezedTrial without_cuts(CutTrials& trials, const Wish& wish, SqueezedTrial moved, const ProgressRange& range) {
   const auto nearly_kept = [&](const Trial& trial) {
     const std::optional<double>& most = wish.options.max_distortion;
     return most && trials.has_several_charts() && !wish.is_enough(trial) && trial.distortion < *most + kByChance;
   };
   const auto part = [&](int k) { return range.part(k / (kPackings + 1.0), (k + 1) / (kPackings + 1.0)); };
-  SqueezedTrial out = trials.without_cuts(part(0));
+  SqueezedTrial out = std::move(moved);
+  if (!wish.is_enough(out.trial) && out.solution.intervention == Intervention::Moved && trials.relaxes()) {
+    SqueezedTrial relaxed = trials.without_cuts(part(0), {.relax = true});
+    if (relaxed.trial.distortion < out.trial.distortion) out = std::move(relaxed);
+  }
   for (int again = 1; again <= kPackings && nearly_kept(out.trial) && !trials.finishing(); ++again) {
-    SqueezedTrial other = trials.without_cuts(part(again), again);
+    SqueezedTrial other = trials.without_cuts(part(again), {.again = again, .relax = true});
     if (wish.is_better(other.trial, out.trial)) out = std::move(other);
   }
   return out;
@@ -72,125 +79,158 @@ std::optional<SqueezedTrial> kept_in_another_packing(const CutTrials& trials, co
   return std::nullopt;
 }
 
-class Search {
- public:
-  Search(CutTrials& trials, const RefineOptions& options, const ProgressRange& range)
-      : trials_(trials), options_(options), rest_(range) {}
+/// A search with what it has found so far.
+struct Search {
+  CutTrials& trials;
+  const RefineOptions& options;
+  Wish wish;
+  ProgressRange rest;
+  Outcomes found = {};
 
-  SqueezedTrial run() {
-    found_.squeezed.push_back(without_cuts(trials_, wish_, step()));
-    if (options_.trade_off)
-      look_for_all();
-    else if (wish_.has_limit())
-      keep_limit();
-    else
-      look_for_best();
-    if (may_need_rectangles()) look_at_rectangles();
-    SqueezedTrial& chosen = choose();
-    chosen.solution.cuts = found_.report(chosen.trial);
-    return std::move(chosen);
-  }
-
- private:
-  /// Of a trade-off what is listed is what can be picked from it in another run: no more is tried.
-  SqueezedTrial& choose() {
-    if (options_.point) return found_.point(*options_.point);
-    SqueezedTrial& best = found_.best(wish_);
-    return options_.trade_off ? best : symmetric(trials_, wish_, best, step(), found_);
-  }
+  double most_growth() const { return options.max_boundary_growth.value_or(kAnyGrowth); }
 
   /// Every step has a part of what is left of the progress: most searches end soon.
   ProgressRange step() {
-    const ProgressRange out = rest_.part(0, 0.3);
-    rest_ = rest_.part(0.3, 1);
+    const ProgressRange out = rest.part(0, 0.3);
+    rest = rest.part(0.3, 1);
     return out;
   }
 
-  /// The first set that keeps the limits has the least boundary; a budget may leave none, and then the nearest is wanted.
-  void keep_limit() {
-    if (wish_.is_enough(found_.squeezed.front().trial)) return;
-    CutPath path(trials_, options_, options_.max_boundary_growth.has_value(), step(), found_);
-    bool goes_on = true;
-    while (goes_on && path.passed() < most_growth() && !trials_.finishing()) {
-      goes_on = path.advance(most_growth());
-      for (CutSet* set : path.front(most_growth())) {
-        if (set->squeezed || above_limits(path, *set) > kNear) continue;
-        const SqueezedTrial* squeezed = path.squeeze(*set);
-        if (!squeezed) continue;
-        const Trial& came = squeezed->trial;
-        if (wish_.is_enough(came)) return;
-        if (wish_.above_limits(came.distortion, came.stretch) > kNearlyKept) continue;
-        auto other = kept_in_another_packing(trials_, wish_, set->trial, step(), found_);
-        if (!other) continue;
-        found_.squeezed.push_back(std::move(*other));
-        return;
-      }
-    }
-    squeeze_best(
-        path, [&](const CutSet& set) { return std::exp(above_limits(path, set)); },
-        [&](const Trial& trial) { return std::exp(wish_.above_limits(trial.distortion, trial.stretch)); });
-  }
-
-  void look_for_best() {
-    CutPath path(trials_, options_, true, step(), found_);
-    const double weight = options_.seam_cost * wish_.growth_weight;
-    const auto likely = [&](const CutSet& set) {
-      return std::min(path.likely_distortion(set), kHopeless) + weight * set.trial.growth - 1;
-    };
-    double least = wish_.cost(found_.squeezed.front().trial) - 1;
-    while (path.passed() < most_growth() && weight * path.passed() < least && path.advance(most_growth())) {
-      for (const CutSet* set : path.front(most_growth())) least = std::min(least, likely(*set));
-    }
-    squeeze_best(path, likely, [&](const Trial& trial) { return wish_.cost(trial) - 1; });
-  }
-
-  /// Those that may be the best, what is likeliest first.
-  template <class Likely, class Came>
-  void squeeze_best(CutPath& path, const Likely& likely, const Came& came) {
-    std::vector<CutSet*> sets = path.front(most_growth());
-    std::stable_sort(sets.begin(), sets.end(), [&](const CutSet* a, const CutSet* b) { return likely(*a) < likely(*b); });
-    for (CutSet* set : sets) {
-      if (likely(*set) > (1 + kNear) * came(found_.best(wish_).trial) || trials_.finishing()) return;
-      path.squeeze(*set);
-    }
-  }
-
-  void look_for_all() {
-    CutPath path(trials_, options_, true, step(), found_);
-    while (path.passed() < most_growth() && path.advance(most_growth())) continue;
-    for (CutSet* set : path.front(most_growth())) {
-      if (found_.squeezed.size() < kMostPoints && !trials_.finishing()) path.squeeze(*set);
-    }
-  }
+  CutPath path(bool thorough) { return {trials, options, thorough, step(), found}; }
 
   double above_limits(const CutPath& path, const CutSet& set) const {
-    return wish_.above_limits(path.likely_distortion(set), path.likely_stretch(set));
+    return wish.above_limits(path.likely_distortion(set), path.likely_stretch(set));
   }
-
-  /// The limit is not kept, or by so many seams that rectangles may need fewer. Else the bound: without them it is not held, or
-  /// charts that are too stiff for it are stretched.
-  bool may_need_rectangles() {
-    const Trial& best = found_.best(wish_).trial;
-    if (trials_.finishing()) return false;
-    if (wish_.has_limit() && !options_.trade_off)
-      return !wish_.is_enough(best) || wish_.growth_weight * best.growth > kFewOfRectangles;
-    return !std::isfinite(best.distortion) || found_.squeezed.front().solution.held > 0;
-  }
-
-  void look_at_rectangles() {
-    auto rectangles = trials_.rectangles(rest_);
-    if (!rectangles || rectangles->trial.growth > most_growth()) return;
-    found_.squeezed.push_back(std::move(*rectangles));
-  }
-
-  double most_growth() const { return options_.max_boundary_growth.value_or(kAnyGrowth); }
-
-  CutTrials& trials_;
-  const RefineOptions& options_;
-  Wish wish_{options_, trials_.growth_weight()};
-  ProgressRange rest_;
-  Outcomes found_;
 };
+
+/// Those that may be the best, what is likeliest first.
+template <class Likely, class Came>
+void squeeze_best(Search& search, CutPath& path, const Likely& likely, const Came& came) {
+  std::vector<CutSet*> sets = path.front(search.most_growth());
+  std::stable_sort(sets.begin(), sets.end(), [&](const CutSet* a, const CutSet* b) { return likely(*a) < likely(*b); });
+  for (CutSet* set : sets) {
+    if (likely(*set) > (1 + kNear) * came(search.found.best(search.wish).trial) || search.trials.finishing()) return;
+    path.squeeze(*set);
+  }
+}
+
+/// The limit is not kept, or by so many seams that rectangles may need fewer. Else the bound: without them it is not held,
+/// charts that are too stiff for it are stretched, or what the best costs leaves them room.
+bool may_need_rectangles(Search& search) {
+  const Wish& wish = search.wish;
+  const Trial& best = search.found.best(wish).trial;
+  if (search.trials.finishing()) return false;
+  const bool small = search.trials.is_small();
+  if (wish.has_limit() && !search.options.trade_off)
+    return !wish.is_enough(best) || wish.growth_weight * best.growth > (small ? 0 : kFewOfRectangles);
+  if (!std::isfinite(best.distortion) || search.found.squeezed.front().solution.held > 0) return true;
+  return !search.options.trade_off && wish.cost(best) - 1 > (small ? kCheap : kDear);
+}
+
+void look_at_rectangles(Search& search) {
+  if (!may_need_rectangles(search)) return;
+  auto rectangles = search.trials.rectangles(search.step());
+  if (!rectangles || rectangles->trial.growth > search.most_growth()) return;
+  search.found.squeezed.push_back(std::move(*rectangles));
+}
+
+/// Of cuts that were added together the last may not be needed.
+void spare_cuts(const Search& search, CutPath& path, const CutSet& enough) {
+  for (int low = 0, high = enough.together; high - low > 1 && !search.trials.finishing();) {
+    const int middle = (low + high) / 2;
+    CutSet* fewer = path.with_fewer(enough, enough.together - middle);
+    const SqueezedTrial* squeezed = fewer ? path.squeeze(*fewer) : nullptr;
+    (squeezed && search.wish.is_enough(squeezed->trial) ? high : low) = middle;
+  }
+}
+
+/// The first set that keeps the limits costs least; a budget may leave none, and then the nearest is wanted.
+void keep_limit_along(Search& search, CutPath path) {
+  const Wish& wish = search.wish;
+  const double most = search.most_growth();
+  bool goes_on = true;
+  while (goes_on && path.passed() < most && !search.trials.finishing()) {
+    goes_on = path.advance(most);
+    for (CutSet* set : path.front(most)) {
+      const bool is_known = set->squeezed != nullptr;
+      if (!is_known && search.above_limits(path, *set) > kNear) continue;
+      const SqueezedTrial* squeezed = path.squeeze(*set);
+      if (!squeezed) continue;
+      const Trial& came = squeezed->trial;
+      if (wish.is_enough(came)) return spare_cuts(search, path, *set);
+      if (is_known || wish.above_limits(came.distortion, came.stretch) > kNearlyKept) continue;
+      auto other = kept_in_another_packing(search.trials, wish, set->trial, search.step(), search.found);
+      if (!other) continue;
+      search.found.squeezed.push_back(std::move(*other));
+      return;
+    }
+  }
+  squeeze_best(
+      search, path, [&](const CutSet& set) { return std::exp(search.above_limits(path, set)); },
+      [&](const Trial& trial) { return std::exp(wish.above_limits(trial.distortion, trial.stretch)); });
+}
+
+/// Rectangles take less than a thorough search, and may be what holds the limits where that finds nothing.
+void keep_limit(Search& search) {
+  if (search.wish.is_enough(search.found.squeezed.front().trial)) return;
+  const bool thorough = search.options.max_boundary_growth.has_value();
+  keep_limit_along(search, search.path(thorough));
+  look_at_rectangles(search);
+  const bool goes_on = search.trials.is_small() || !search.wish.is_enough(search.found.best(search.wish).trial);
+  if (!thorough && goes_on && !search.trials.finishing()) keep_limit_along(search, search.path(true));
+}
+
+void look_for_best(Search& search) {
+  const Wish& wish = search.wish;
+  CutPath path = search.path(true);
+  const double weight = search.options.seam_cost * wish.growth_weight, most = search.most_growth();
+  const auto likely = [&](const CutSet& set) {
+    return std::min(path.likely_distortion(set), kHopeless) + weight * set.trial.growth - 1;
+  };
+  double least = wish.cost(search.found.squeezed.front().trial) - 1;
+  while (path.passed() < most && weight * path.passed() < least && path.advance(most)) {
+    for (const CutSet* set : path.front(most)) least = std::min(least, likely(*set));
+  }
+  squeeze_best(search, path, likely, [&](const Trial& trial) { return wish.cost(trial) - 1; });
+  look_at_rectangles(search);
+}
+
+void look_for_all(Search& search) {
+  CutPath path = search.path(true);
+  while (path.passed() < search.most_growth() && path.advance(search.most_growth())) continue;
+  for (CutSet* set : path.front(search.most_growth())) {
+    if (search.found.squeezed.size() < kMostPoints && !search.trials.finishing()) path.squeeze(*set);
+  }
+  look_at_rectangles(search);
+}
+
+/// Of a trade-off what is listed is what can be picked from it in another run: no more is tried.
+SqueezedTrial& choose(Search& search) {
+  const RefineOptions& options = search.options;
+  if (options.point) return search.found.point(*options.point);
+  SqueezedTrial& best = search.found.best(search.wish);
+  return options.trade_off ? best : symmetric(search.trials, search.wish, best, search.step(), search.found);
+}
+
+SqueezedTrial found_by(Search& search) {
+  const RefineOptions& options = search.options;
+  std::optional<SqueezedTrial> moved = search.trials.without_cuts(search.step());
+  const bool is_moved = moved->solution.intervention == Intervention::Moved;
+  search.found.squeezed.push_back(without_cuts(search.trials, search.wish, *moved, search.step()));
+  // Where no cut pays charts are bent for the bound only.
+  if (!is_moved || search.wish.has_limit() || options.trade_off || options.seam_cost == 0) moved.reset();
+  if (options.trade_off)
+    look_for_all(search);
+  else if (search.wish.has_limit())
+    keep_limit(search);
+  else
+    look_for_best(search);
+  SqueezedTrial& chosen = choose(search);
+  CutReport report = search.found.report(chosen.trial);
+  SqueezedTrial& out = moved && &chosen == &search.found.squeezed.front() ? *moved : chosen;
+  out.solution.cuts = std::move(report);
+  return std::move(out);
+}
 
 }  // namespace
 
@@ -200,7 +240,8 @@ Solution cut_as_needed(const Refinement& run, const ProgressRange& range) {
   unlimited.max_stretch.reset();
   const Refinement free{run.input, unlimited, run.monitor, run.journal, run.threads, run.asked};
   CutTrials trials(free, range.part(0, 0.1));
-  SqueezedTrial best = Search(trials, run.options, range.part(0.1, 1)).run();
+  Search search{trials, run.options, {run.options, trials.growth_weight()}, range.part(0.1, 1)};
+  SqueezedTrial best = found_by(search);
   run.journal.fallbacks.insert(run.journal.fallbacks.end(), best.fallbacks.begin(), best.fallbacks.end());
   run.journal.warnings.insert(run.journal.warnings.end(), best.warnings.begin(), best.warnings.end());
   best.solution.re_embedded = trials.mended();

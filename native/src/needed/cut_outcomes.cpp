@@ -23,7 +23,7 @@ double Wish::above_limits(double distortion, double stretch) const {
 bool Wish::is_better(const Trial& a, const Trial& b) const {
   if (!has_limit()) return cost(a) < cost(b) - kSettled;
   if (is_enough(a) != is_enough(b)) return is_enough(a);
-  if (is_enough(a)) return a.growth < b.growth;
+  if (is_enough(a)) return kAsGood * a.growth < b.growth;
   const auto rank = [&](const Trial& t) { return std::pair(above_limits(t.distortion, t.stretch), t.distortion); };
   return rank(a) < rank(b);
 }

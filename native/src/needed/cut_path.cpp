@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "needed/symmetric_cuts.h"
@@ -49,7 +50,7 @@ constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
 CutPath::CutPath(const CutTrials& trials, const RefineOptions& options, bool thorough, const ProgressRange& range,
                  Outcomes& found)
-    : trials_(trials), options_(options), is_thorough_(thorough), rest_(range), found_(found) {
+    : trials_(trials), options_(options), is_thorough_(thorough), rest_(range), found_(found), tried_before_(found.tried) {
   const SqueezedTrial& whole = found.squeezed.front();
   bias_.learn(whole);
   best_ = measured(whole.trial);
@@ -57,7 +58,7 @@ CutPath::CutPath(const CutTrials& trials, const RefineOptions& options, bool tho
 }
 
 bool CutPath::advance(double most_growth) {
-  double reach = std::max(kStep * passed_, passed_ + kLeastStep);
+  double reach = std::max({kStep * passed_, passed_ + kLeastStep, passed_ + together_});
   while (!trials_.finishing()) {
     if (CutSet* set = next(reach)) {
       if (set->trial.growth > most_growth) break;
@@ -126,7 +127,7 @@ std::vector<CutSet*> CutPath::ahead(double reach) {
   return out;
 }
 
-bool CutPath::may_forecast() const { return found_.tried < budget_of(options_.effort).forecasts; }
+bool CutPath::may_forecast() const { return found_.tried - tried_before_ < budget_of(options_.effort).forecasts; }
 
 bool CutPath::takes_risks() const { return is_thorough_ || (is_stuck_ && risks_ < kMostRisks); }
 
@@ -139,11 +140,11 @@ CutSet* CutPath::next(double reach) {
     CutSet* first = sets.front();
     sets.erase(std::remove_if(sets.begin(), sets.end(), [](const CutSet* set) { return set->is_forecast; }), sets.end());
     if (first->is_forecast && (sets.empty() || found_.tried >= enough)) {
-      if (add_with_one_less(*first)) continue;
+      if (trials_.places_anew() && add_with_one_less(*first)) continue;
       return first;
     }
     if (is_thorough_ && found_.tried >= enough && foreseen(*sets.front()) >= best_ - kLeastGain) return nullptr;
-    sets.resize(std::min<std::size_t>(sets.size(), found_.tried == 0 ? budget.first : 1));
+    sets.resize(std::min<std::size_t>(sets.size(), found_.tried == tried_before_ ? budget.first : 1));
     forecast(sets);
   }
   return nullptr;
@@ -163,7 +164,8 @@ void CutPath::forecast(const std::vector<CutSet*>& sets) {
     set.trial = *trials[k];
     set.excess = measured(set.trial);
     set.is_forecast = true;
-    if (set.gain > 0) savings_.learn(set.trial.cuts.back(), set.before, set.less_strain, set.gain, set.before - set.excess);
+    if (set.gain > 0 && set.together == 1)
+      savings_.learn(set.trial.cuts.back(), set.before, set.less_strain, set.gain, set.before - set.excess);
   }
 }
 
@@ -188,6 +190,7 @@ void CutPath::expand(const Trial& present, double own_price, double before, cons
   std::vector<CutPlace> places = trials_.places(present, present.cuts.empty() ? budget.first_places : budget.places, budget.tips);
   savings_.add_useful(places);
   const Previews previews = trials_.previews(present, places);
+  const std::size_t first = sets_.size();
   for (std::size_t k = 0; k < places.size(); ++k) {
     const auto& [growth, strain, price] = previews.with[k];
     if (has(present.cuts, places[k]) || !std::isfinite(growth)) continue;
@@ -198,6 +201,53 @@ void CutPath::expand(const Trial& present, double own_price, double before, cons
     if (set.trial.growth > 0) set.price = (own_price * present.growth + price * growth) / set.trial.growth;
     add(std::move(set));
   }
+  if (!trials_.places_anew()) add_together(present, first);
+}
+
+CutSet* CutPath::with_fewer(const CutSet& set, int less) {
+  CutSet out{
+      .trial = set.trial, .before = set.before, .present = set.present, .price = set.price, .together = set.together - less};
+  out.trial.cuts.resize(set.trial.cuts.size() - less);
+  if (!add(std::move(out))) return nullptr;
+  CutSet& added = sets_.back();
+  const double passed = std::exchange(passed_, 0);  // back behind what was passed
+  forecast({&added});
+  passed_ = passed;
+  return added.is_forecast ? &added : nullptr;
+}
+
+/// Among many charts the best cut of each of those that lose most, where several promise as much: else every one of a hundred
+/// charts takes a step of its own. They stay in the layout, so that what they save adds up.
+void CutPath::add_together(const Trial& present, std::size_t first) {
+  constexpr double kAsGood = 0.5;  // of the best rate
+  std::map<int, const CutSet*> best;
+  for (std::size_t k = first; k < sets_.size(); ++k) {
+    const CutSet*& own = best[sets_[k].trial.cuts.back().chart];
+    if (!own || rate_of(sets_[k]) > rate_of(*own)) own = &sets_[k];
+  }
+  double least = 0;
+  for (const auto& [chart, set] : best) least = std::max(least, kAsGood * rate_of(*set));
+  std::vector<const CutSet*> good;
+  for (const auto& [chart, set] : best) {
+    if (rate_of(*set) >= least && set->gain >= kLeastGain) good.push_back(set);
+  }
+  std::stable_sort(good.begin(), good.end(), [&](const CutSet* a, const CutSet* b) { return rate_of(*a) > rate_of(*b); });
+  CutSet out{.trial = {.cuts = present.cuts, .growth = present.growth}};
+  double cost = 0;
+  for (const CutSet* set : good) {
+    out.trial.cuts.push_back(set->trial.cuts.back());
+    out.trial.growth += set->trial.growth - present.growth;
+    out.gain += set->gain;
+    cost += set->cost();
+    out.before = set->before;
+    out.present = set->present;
+  }
+  const std::size_t more = out.trial.cuts.size() - present.cuts.size();
+  if (more < 2) return;
+  out.together = static_cast<int>(more);
+  if (out.trial.growth > 0) out.price = cost / (out.trial.growth + (static_cast<double>(more) - 1) * present.growth);
+  together_ = out.trial.growth - present.growth;
+  add(std::move(out));
 }
 
 /// Once for each set; whether anything was added.

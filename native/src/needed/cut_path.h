@@ -20,6 +20,7 @@ struct CutSet {
   double price = 1;                        ///< of the edges of its cuts, the mean for each length
 
   double cost() const { return price * trial.growth; }
+  int together = 1;  ///< so many cuts more than that set has
   bool is_forecast = false;
   double excess = 0;  ///< as it is forecast
   bool is_out = false;
@@ -45,6 +46,8 @@ class CutPath {
   double likely_stretch(const CutSet& set) const { return bias_.stretch_of(set.trial); }
   /// Nothing where it does not hold the bound.
   const SqueezedTrial* squeeze(CutSet& set);
+  /// Forecast without the last cuts of those that were added together; nothing where that is known or does not hold the bound.
+  CutSet* with_fewer(const CutSet& set, int less);
 
  private:
   double measured(const Trial& trial) const;
@@ -57,6 +60,7 @@ class CutPath {
   void forecast(const std::vector<CutSet*>& sets);
   void pass(CutSet& set);
   void expand(const Trial& present, double own_price, double before, const SqueezedTrial* squeezed);
+  void add_together(const Trial& present, std::size_t first);
   bool add_with_one_less(const CutSet& set);
   bool add(CutSet set);
   ProgressRange step();
@@ -68,6 +72,8 @@ class CutPath {
   int risks_ = 0;          ///< forecasts where that was so
   ProgressRange rest_;
   Outcomes& found_;
+  double together_ = 0;  ///< growth by a cut in each of several charts
+  int tried_before_;     ///< by other paths
   std::deque<CutSet> sets_;
   std::vector<std::vector<CutPlace>> pruned_;
   double passed_ = 0, best_ = 0;  ///< boundary, and least excess up to there

@@ -81,21 +81,31 @@ CutTrials::CutTrials(const Refinement& run, const ProgressRange& range)
     uncut_.emplace_back(pieces[c], run.input.set.charts[c], prices_[c], run.options.cut);
 }
 
+bool CutTrials::is_small() const {
+  constexpr std::size_t kSmall = 2000;  // triangles
+  std::size_t count = 0;
+  for (const Piece& piece : whole_.atlas.pieces) count += piece.mesh.triangles.size();
+  return count < kSmall && places_anew();
+}
+
+bool CutTrials::relaxes() const { return goes_on(run_, whole_.atlas.pieces.size()); }
+
 double CutTrials::growth_of(const std::vector<ChartCuts>& charts) const {
   double length = 0;
   for (const ChartCuts& chart : charts) length += chart.length();
   return boundary_ > 0 ? 2 * length / boundary_ : 0;
 }
 
-SqueezedTrial CutTrials::without_cuts(const ProgressRange& range, int again) {
+SqueezedTrial CutTrials::without_cuts(const ProgressRange& range, const WholeTerms& terms) {
   Journal& journal = run_.journal;
   const Journal::Mark before = journal.mark();
   RefineOptions options = run_.options;
-  options.seed += again;
+  options.seed += terms.again;
+  options.relax = options.relax || terms.relax;
   const Refinement run{run_.input, options, run_.monitor, journal, run_.threads, run_.asked};
   SqueezedTrial out{.trial = {}, .solution = place_and_squeeze(run, whole_.atlas, whole_.keeps_place, range)};
   keep_words(before, out);
-  journal.back_to({again ? before.repairs : journal.mark().repairs, before.fallbacks, before.warnings});
+  journal.back_to({terms.again || terms.relax ? before.repairs : journal.mark().repairs, before.fallbacks, before.warnings});
   measure(run_, out.solution, out.trial);
   const std::vector<Chart> charts = meshes_of(out.solution.atlas);
   const Objective objective = goal_of(run_.input.set.charts, out.solution.atlas, run_.options);

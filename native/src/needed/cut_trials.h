@@ -60,6 +60,12 @@ struct ForecastTerms {
   Bias bias = {};      ///< with it they foresee what they will end with
 };
 
+/// What charts without cuts are squeezed by.
+struct WholeTerms {
+  int again = 0;       ///< packed by other random choices
+  bool relax = false;  ///< bent also where the bound is held without
+};
+
 /// One more cut, as far as that is told before anything is bent.
 struct Preview {
   double growth;                 ///< of the boundary by this cut alone; infinite where it cannot be made
@@ -92,8 +98,12 @@ class CutTrials {
 
   const std::vector<int>& mended() const { return whole_.mended; }
 
-  /// The first to be asked for. `again`: packed by other random choices.
-  SqueezedTrial without_cuts(const ProgressRange& range, int again = 0);
+  /// Of so few triangles that a thorough search takes next to nothing.
+  bool is_small() const;
+  /// Whether charts that hold the bound once moved are bent as far as that lessens distortion, as pieces are.
+  bool relaxes() const;
+  /// The first to be asked for.
+  SqueezedTrial without_cuts(const ProgressRange& range, const WholeTerms& terms = {});
   /// Of what was forecast; nothing where the bound does not hold.
   std::optional<SqueezedTrial> squeezed(const Trial& trial, const ProgressRange& range) const;
 

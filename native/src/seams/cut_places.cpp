@@ -13,10 +13,11 @@
 namespace atlas_refine {
 namespace {
 
-constexpr int kCharts = 6;        // that lose most: only they are looked at
-constexpr int kNecks = 24;        // of each chart
-constexpr double kAround = 0.75;  // of a cut's length: what is so near it can relax
-constexpr int kWays = 2;          // to each point of high curvature, of the chart that loses most
+constexpr std::size_t kCharts = 6;  // that lose most: only they are looked at, of many more
+constexpr int kNecks = 24;          // of each chart
+constexpr double kAround = 0.75;    // of a cut's length: what is so near it can relax
+constexpr std::size_t kMany = 8;    // charts
+constexpr int kWays = 2;            // to each point of high curvature, of the chart that loses most
 
 double lost(const ChartState& state) {
   return std::accumulate(state.losses.begin(), state.losses.end(), 0.0, [](double sum, const Loss& l) { return sum + l.amount; });
@@ -29,7 +30,7 @@ std::vector<int> charts_by_loss(const std::vector<ChartState>& states) {
     if (states[c].cuts) out.push_back(static_cast<int>(c));
   }
   std::stable_sort(out.begin(), out.end(), [&](int a, int b) { return lost(states[a]) > lost(states[b]); });
-  if (out.size() > kCharts) out.resize(kCharts);
+  out.resize(std::min(out.size(), std::max(kCharts, states.size() / kMany)));
   return out;
 }
 
@@ -103,7 +104,9 @@ std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int stra
     const Border border = states[c].cuts->border();
     for (const Chord& chord : necks(border, kLeastPart * area_within(border), kNecks))
       ranked.push_back({c, chord, loss_near(states[c], chord)});
-    if (c == charts.front()) ways = ways_to_tips(states[c], c, border, tips);
+    // Of many charts, each with little of what is lost, a few in each.
+    const int most = states.size() > kMany ? std::max(kWays, tips / 2) : c == charts.front() ? tips : 0;
+    for (CutPlace& way : ways_to_tips(states[c], c, border, most)) ways.push_back(std::move(way));
   }
   std::vector<CutPlace> by_loss = ranked;
   std::stable_sort(ranked.begin(), ranked.end(),
