@@ -202,5 +202,21 @@ TEST(Folds, AHalfOfOtherPolygonsIsPartedOnlyWhereItIsCut) {
   EXPECT_EQ(cut.added_seams, cut.after.seam_edges);
 }
 
+TEST(Folds, EdgesThatHalvesArePartedAlongAreNewSeams) {
+  const Atlas atlas = with_mirror(half(), 0);
+  RefineOptions options{.pe_bound = 0.9, .stacks = Stacks::Separate};
+  for (const Seams seams : {Seams::None, Seams::Rectangles}) {
+    options.seams = seams;
+    const RefineResult result = refine(atlas, options);
+    const auto& new_seams = result.cut ? result.cut->new_seams : result.new_seams;
+    const auto on_mirror = [&](const std::array<int, 2>& edge) {
+      return std::all_of(edge.begin(), edge.end(),
+                         [&](int v) { return v < static_cast<int>(atlas.positions.size()) && atlas.positions[v].x() == 0; });
+    };
+    EXPECT_EQ(std::count_if(new_seams.begin(), new_seams.end(), on_mirror), kSide);
+    if (!result.cut) EXPECT_EQ(result.new_seams.size(), static_cast<std::size_t>(result.added_seams));
+  }
+}
+
 }  // namespace
 }  // namespace atlas_refine

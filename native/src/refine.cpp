@@ -188,7 +188,7 @@ RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, 
   summarise(whole, participants, options, done, result);
   tell_of(participants, done, journal);
   tell_of_missing_edges(atlas, options, journal);
-  const int parted = tell_of_folds(whole.set, participants, done, journal);
+  const std::vector<int> parted = tell_of_folds(whole.set, participants, done, journal);
   AssembledAtlas assembled =
       assemble(whole, participants, refined_parts(done),
                {.stored = options.stored, .divide = divides_faces(options), .triangulate = options.triangulate});
@@ -203,10 +203,11 @@ RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, 
                                (between_groups == 1 ? " edge" : " edges"));
   const double boundary = boundary_on_surface(whole.set.charts);
   result.boundary_growth = boundary > 0 ? std::max(0.0, 2 * (torn.length - seams.length) / boundary) : 0;
-  result.added_seams = assembled.cut_edges + parted + between_groups;
+  result.added_seams = assembled.cut_edges + static_cast<int>(parted.size()) + between_groups;
   result.corner_uvs = std::move(assembled.mesh.corner_uvs);
   result.cut = std::move(assembled.cut);
   result.new_seams = std::move(assembled.new_seams);
+  add_new_seams(whole.atlas, parted, result);
   restore_locked_corners(whole, options, result);
   tell_of_tiles(tiles, whole, participants, result, journal);
   return result;

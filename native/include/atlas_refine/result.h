@@ -150,13 +150,14 @@ struct CutMesh {
   std::vector<std::array<int, 3>> corner_sources;
   std::vector<Vec3> corner_weights;           ///< >= 0, sum 1
   std::vector<NewVertex> new_vertices;        ///< vertex k of them has the index (input vertices + k)
-  std::vector<std::array<int, 2>> new_seams;  ///< edges (vertex pairs) that cuts run along, each once
+  std::vector<std::array<int, 2>> new_seams;  ///< edges (vertex pairs) that cuts run along, or charts were parted along
 };
 
 struct RefineResult {
   std::vector<Vec2> corner_uvs;  ///< one per corner of `cut` or, without it, of the input; its own, bit for bit, where Unchanged
   std::optional<CutMesh> cut;    ///< where faces were divided (Cut::Split); with Seams::None only where a chart was opened so
-  /// Edges of the input, as pairs of its vertices, that were cut where no face was divided (Cut::Edges); each once.
+  /// Edges of the input, as pairs of its vertices, that were cut, or along which what was folded was parted, where no face was
+  /// divided (Cut::Edges); each once.
   std::vector<std::array<int, 2>> new_seams;
   Intervention intervention = Intervention::Unchanged;
   /// False only with best_effort or Ended::Stopped, where PE is below the bound or, with Seams::Needed, max_distortion or

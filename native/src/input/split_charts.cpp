@@ -91,8 +91,8 @@ std::vector<Fold> folds_of(const Atlas& atlas, const EdgeJoins& joins, const std
     if (!joins.alike[c]) std::swap(ends[0], ends[1]);
     folds[whole.find(corners[c].chart)].edges.push_back(
         {{corners[c].chart, corners[other].chart},
-         {{{corners[c].vertex, corners[ends[0]].vertex},
-           {corners[joins.next_corner(atlas, c)].vertex, corners[ends[1]].vertex}}}});
+         {{{corners[c].vertex, corners[ends[0]].vertex}, {corners[joins.next_corner(atlas, c)].vertex, corners[ends[1]].vertex}}},
+         c});
   }
   std::vector<Fold> out;
   for (auto& [first, fold] : folds) {

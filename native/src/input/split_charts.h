@@ -15,6 +15,7 @@ namespace atlas_refine {
 struct FoldEdge {
   std::array<int, 2> charts;               ///< at either side of it
   std::array<std::array<int, 2>, 2> ends;  ///< at each end the vertices of the two charts
+  int corner;                              ///< of the input, where the first chart's side of it starts
 };
 
 /// Charts that were one, folded along edges in the UV plane.

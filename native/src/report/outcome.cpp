@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
+#include <set>
 
 #include "report/certify.h"
 #include "report/locked.h"
@@ -132,7 +135,8 @@ void tell_of(const Participants& participants, const std::vector<Done>& done, Jo
   if (done.empty()) journal.warnings.emplace_back("no chart takes part: nothing was changed");
 }
 
-int tell_of_folds(const ChartSet& set, const Participants& participants, const std::vector<Done>& done, Journal& journal) {
+std::vector<int> tell_of_folds(const ChartSet& set, const Participants& participants, const std::vector<Done>& done,
+                               Journal& journal) {
   constexpr int kStays = -1;
   std::vector<int> goes_with(set.charts.size(), kStays);
   for (const Done& d : done) {
@@ -140,18 +144,42 @@ int tell_of_folds(const ChartSet& set, const Participants& participants, const s
     for (const int k : d.part.charts) goes_with[k] = k;
   }
   for (const Follower& follower : participants.followers) goes_with[follower.chart] = goes_with[follower.leader];
-  int torn = 0;
+  std::vector<int> torn;
   for (const Fold& fold : set.folds) {
-    const auto edges = std::count_if(fold.edges.begin(), fold.edges.end(), [&](const FoldEdge& edge) {
-      return goes_with[edge.charts[0]] != goes_with[edge.charts[1]];
-    });
+    const std::size_t before = torn.size();
+    for (const FoldEdge& edge : fold.edges) {
+      if (goes_with[edge.charts[0]] != goes_with[edge.charts[1]]) torn.push_back(edge.corner);
+    }
+    const std::size_t edges = torn.size() - before;
     if (edges == 0) continue;
-    torn += static_cast<int>(edges);
     journal.repairs.push_back(
         {.what = "folded onto each other along " + std::to_string(edges) + (edges == 1 ? " edge, parted" : " edges, parted"),
          .charts = fold.charts});
   }
   return torn;
+}
+
+std::array<int, 2> ends_of_edge(const Atlas& atlas, int corner) {
+  const auto end = std::upper_bound(atlas.face_offsets.begin(), atlas.face_offsets.end(), corner);
+  const int next = corner + 1 < *end ? corner + 1 : *(end - 1);
+  return {atlas.corner_vertices[corner], atlas.corner_vertices[next]};
+}
+
+void add_new_seams(const Atlas& input, const std::vector<int>& corners, RefineResult& result) {
+  if (corners.empty()) return;
+  std::set<std::pair<int, int>> edges;  // that a cut mesh still has
+  for (std::size_t f = 0; result.cut && f + 1 < result.cut->face_offsets.size(); ++f) {
+    const int begin = result.cut->face_offsets[f], end = result.cut->face_offsets[f + 1];
+    for (int c = begin; c < end; ++c) {
+      const int next = c + 1 < end ? c + 1 : begin;
+      edges.insert(std::minmax(result.cut->corner_vertices[c], result.cut->corner_vertices[next]));
+    }
+  }
+  auto& seams = result.cut ? result.cut->new_seams : result.new_seams;
+  for (const int corner : corners) {
+    const std::array<int, 2> ends = ends_of_edge(input, corner);
+    if (!result.cut || edges.contains(std::minmax(ends[0], ends[1]))) seams.push_back(ends);
+  }
 }
 
 }  // namespace atlas_refine

@@ -47,8 +47,15 @@ void summarise(const InputAtlas& whole, const Participants& participants, const 
 /// Charts that go with others, that stay as they are, and that overlapped, in words.
 void tell_of(const Participants& participants, const std::vector<Done>& done, Journal& journal);
 
-/// Charts that were one, folded, and have come apart, in words; returns along how many edges. Halves that lie on each other go
-/// together as a stack and stay joined, as do charts that keep their UVs.
-int tell_of_folds(const ChartSet& set, const Participants& participants, const std::vector<Done>& done, Journal& journal);
+/// Charts that were one, folded, and have come apart, in words; returns along which edges, by the corners of the input that they
+/// start from. Halves that lie on each other go together as a stack and stay joined, as do charts that keep their UVs.
+std::vector<int> tell_of_folds(const ChartSet& set, const Participants& participants, const std::vector<Done>& done,
+                               Journal& journal);
+
+/// The vertices of the edge that starts at a corner.
+std::array<int, 2> ends_of_edge(const Atlas& atlas, int corner);
+
+/// Adds the edges that start at these corners of the input to the new seams, as far as cuts have left them whole.
+void add_new_seams(const Atlas& input, const std::vector<int>& corners, RefineResult& result);
 
 }  // namespace atlas_refine

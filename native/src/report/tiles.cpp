@@ -5,6 +5,8 @@
 #include <array>
 #include <set>
 
+#include "report/outcome.h"
+
 namespace atlas_refine {
 namespace {
 
@@ -12,13 +14,6 @@ std::vector<char> left_charts(const ChartSet& set, const Participants& participa
   std::vector<char> out(set.charts.size(), 0);
   for (const LeftChart& chart : participants.left) out[chart.chart] = 1;
   return out;
-}
-
-/// The vertices of the edge that starts at a corner.
-std::array<int, 2> ends_of_edge(const Atlas& atlas, int corner) {
-  const auto end = std::upper_bound(atlas.face_offsets.begin(), atlas.face_offsets.end(), corner);
-  const int next = corner + 1 < *end ? corner + 1 : *(end - 1);
-  return {atlas.corner_vertices[corner], atlas.corner_vertices[next]};
 }
 
 }  // namespace
@@ -50,12 +45,14 @@ void tell_of_tiles(const UnwrappedTiles& tiles, const InputAtlas& whole, const P
                                  "where the map starts again",
                              .charts = {charts.begin(), charts.end()},
                              .faces = faces});
+  std::vector<int> torn;
   for (const auto& corners : tiles.torn) {
     const int chart = chart_at(corners[0]);
     if (chart < 0 || left[chart]) continue;
     ++result.added_seams;
-    if (!result.cut) result.new_seams.push_back(ends_of_edge(whole.atlas, corners[0]));
+    torn.push_back(corners[0]);
   }
+  add_new_seams(whole.atlas, torn, result);
   if (result.intervention == Intervention::Unchanged) result.intervention = Intervention::Moved;
 }
 
