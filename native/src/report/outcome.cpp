@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 #include <utility>
-#include <set>
 
 #include "report/certify.h"
 #include "report/locked.h"
