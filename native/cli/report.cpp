@@ -1,9 +1,11 @@
 // What the program tells: a JSON report, a summary for people, the table of `measure`.
 #include "report.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace atlas_refine::cli {
@@ -270,6 +272,27 @@ std::string figure(const char* format, double value) { return std::isnan(value) 
 /// A distance as fraction of the box diagonal, or "none" where there is nothing to be apart from.
 std::string gap_text(double gap) { return std::isfinite(gap) ? print("%.5f of the diagonal", gap) : "none"; }
 
+/// What was done to more charts than a reader wants lines of is one line.
+std::vector<Repair> joined(const std::vector<Repair>& repairs) {
+  constexpr int kMostLines = 5;
+  std::map<std::string, int> count;
+  for (const Repair& repair : repairs) ++count[repair.what];
+  std::map<std::string, std::size_t> lines;
+  std::vector<Repair> out;
+  for (const Repair& repair : repairs) {
+    const auto [line, is_first] = lines.try_emplace(repair.what, out.size());
+    if (is_first || count[repair.what] <= kMostLines) {
+      out.push_back(repair);
+      continue;
+    }
+    Repair& all = out[line->second];
+    all.charts.insert(all.charts.end(), repair.charts.begin(), repair.charts.end());
+    all.faces.insert(all.faces.end(), repair.faces.begin(), repair.faces.end());
+    all.distortion_to_input = std::max(all.distortion_to_input, repair.distortion_to_input);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string json_report(const CommandLine& line, const std::vector<FileReport>& files, const RefineResult& result,
@@ -331,7 +354,7 @@ std::string summary(const std::vector<FileReport>& files, const RefineResult& re
             print(": %d charts, PE %.4f -> %.4f, E_d %.4f, ", group.charts, group.before.pe_fixed_aspect,
                   group.after.pe_fixed_aspect, group.after.distortion) +
             to_string(group.intervention) + "\n";
-  for (const Repair& repair : result.repairs) text += "  repair: " + words(repair) + "\n";
+  for (const Repair& repair : joined(result.repairs)) text += "  repair: " + words(repair) + "\n";
   for (const std::string& fallback : result.fallbacks) text += "  fallback: " + fallback + "\n";
   for (const std::string& warning : result.warnings) text += "  warning: " + warning + "\n";
   return text;

@@ -108,3 +108,18 @@ def test_what_is_kept_on_another_chart_has_no_place_of_its_own(program, tmp_path
         warnings = json.loads(report.read_text())["warnings"]
         assert len([line for line in warnings if line.startswith(own)]) == 1, warnings
     assert len(records(source.read_text(), "f")) == 25
+
+
+@pytest.mark.parametrize(("count", "lines"), [(5, 5), (6, 1)])
+def test_what_was_done_to_many_charts_is_one_line(program, tmp_path, count, lines):
+    inputs = []
+    for k in range(count):
+        inputs.append(tmp_path / f"sheet{k}.obj")
+        inputs[-1].write_text(flipped(grid(4, 30 * k), 12))
+    told, summary = told_of(program, tmp_path, inputs, "--stacks", "separate")
+    assert len(told["repairs"]) == count
+    written = [line for line in summary.splitlines() if line.startswith("  repair: ")]
+    assert len(written) == lines
+    if lines == 1:
+        faces = sum(len(repair["faces"]) for repair in told["repairs"])
+        assert written[0].startswith(f"  repair: charts 0, 1, 2, 3, 4, 5 ({faces} faces, the first {inputs[0]}: ")
