@@ -186,8 +186,11 @@ Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) 
     for (const auto& picture : rectangle_pictures(plan->charts, plan->aligned, plan->layout.trails, run.options.rectangles.sigma))
       run.journal.show(picture);
   }
-  return along_edges ? cut_along_edges(run, std::move(*plan), range.part(0.45, 1))
-                     : cut_across_faces(run, std::move(*plan), range.part(0.45, 1));
+  std::vector<int> uncut = uncut_charts(*plan);
+  Attempt out = along_edges ? cut_along_edges(run, std::move(*plan), range.part(0.45, 1))
+                            : cut_across_faces(run, std::move(*plan), range.part(0.45, 1));
+  out.uncut = std::move(uncut);
+  return out;
 }
 
 }  // namespace atlas_refine
