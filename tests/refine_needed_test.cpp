@@ -408,6 +408,18 @@ TEST(Needed, SymmetricMeshesAreCutSymmetrically) {
   }
 }
 
+// Edges of four faces: torn in both copies they are two seams.
+TEST(Needed, CopiesInPlaceGrowEachByItsOwnCuts) {
+  Atlas atlas = shapes::combine({flat_s(), flat_s()});
+  const std::size_t half = atlas.positions.size() / 2;
+  std::copy_n(atlas.positions.begin(), half, atlas.positions.begin() + static_cast<std::ptrdiff_t>(half));
+  RefineOptions options = needed_within(1 + 0.3 * (without_cuts(atlas) - 1));
+  options.stacks = Stacks::Separate;
+  const RefineResult result = refine_soundly(atlas, options);
+  EXPECT_GT(result.cuts->cuts, 1);
+  EXPECT_NEAR(result.boundary_growth, result.cuts->trade_off[result.cuts->chosen].boundary_growth, 1e-6);
+}
+
 TEST(Needed, TheTradeOffHasEveryChoice) {
   const Atlas atlas = flat_s();
   RefineOptions options = needed();

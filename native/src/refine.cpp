@@ -202,7 +202,8 @@ RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, 
     journal.warnings.push_back("charts of several groups were parted along " + std::to_string(between_groups) +
                                (between_groups == 1 ? " edge" : " edges"));
   const double boundary = boundary_on_surface(whole.set.charts);
-  result.boundary_growth = boundary > 0 ? std::max(0.0, 2 * (torn.length - seams.length) / boundary) : 0;
+  // Where charts lie on each other in space an edge is torn in each of them.
+  result.boundary_growth = boundary > 0 ? std::max(0.0, (torn.open - seams.open) / boundary) : 0;
   result.added_seams = assembled.cut_edges + parted + between_groups;
   result.corner_uvs = std::move(assembled.mesh.corner_uvs);
   result.cut = std::move(assembled.cut);
