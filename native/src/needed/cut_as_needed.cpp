@@ -9,6 +9,7 @@
 
 #include "needed/cut_outcomes.h"
 #include "needed/cut_path.h"
+#include "report/wished_edges.h"
 
 namespace atlas_refine {
 namespace {
@@ -203,6 +204,7 @@ Solution cut_as_needed(const Refinement& run, const ProgressRange& range) {
   SqueezedTrial best = Search(trials, run.options, range.part(0.1, 1)).run();
   run.journal.fallbacks.insert(run.journal.fallbacks.end(), best.fallbacks.begin(), best.fallbacks.end());
   run.journal.warnings.insert(run.journal.warnings.end(), best.warnings.begin(), best.warnings.end());
+  if (!best.trial.cuts.empty()) warn_of_forbidden_edges(trials.prices(), run.input.set.charts, best.solution.atlas, run.journal);
   best.solution.re_embedded = trials.mended();
   return std::move(best.solution);
 }

@@ -91,6 +91,7 @@ class CutTrials {
   bool finishing() const { return run_.monitor.finishing(); }
 
   const std::vector<int>& mended() const { return whole_.mended; }
+  const std::vector<SidePrices>& prices() const { return prices_; }
 
   /// The first to be asked for. `again`: packed by other random choices.
   SqueezedTrial without_cuts(const ProgressRange& range, int again = 0);
