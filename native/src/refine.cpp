@@ -232,13 +232,8 @@ Profile profile_of(const Account& account) {
   return out;
 }
 
-/// Where some chart is locked, or where that is asked, the box is the texture, which is square unless said otherwise. A point of
-/// the trade-off is wanted whatever its distortion.
+/// Where some chart is locked, or where that is asked, the box is the texture, which is square unless said otherwise.
 RefineOptions settled(RefineOptions options) {
-  if (options.point) {
-    options.max_distortion.reset();
-    options.max_stretch.reset();
-  }
   const bool locked = std::any_of(options.locked.begin(), options.locked.end(), [](char flag) { return flag != 0; });
   if ((locked || options.in_texture) && options.box_aspect == 0) options.box_aspect = 1;
   return options;

@@ -112,8 +112,8 @@ struct TradeOff {
 struct CutReport {
   int cuts = 0;                     ///< from border to border, or to a point inside
   int tried = 0;                    ///< sets of cuts whose outcome was forecast
-  std::vector<TradeOff> trade_off;  ///< by growth; with several groups empty
-  int chosen = -1;                  ///< index into it of the result, or of what is as good; -1 where it is empty
+  std::vector<TradeOff> trade_off;  ///< by growth, the result among them; with several groups empty
+  int chosen = -1;                  ///< index into it of the result; -1 where it is empty
 };
 
 struct StageTime {

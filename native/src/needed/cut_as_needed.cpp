@@ -88,14 +88,14 @@ class Search {
       look_for_best();
     if (may_need_rectangles()) look_at_rectangles();
     SqueezedTrial& chosen = choose();
-    chosen.solution.cuts = found_.report(chosen.trial);
+    chosen.solution.cuts = found_.report(wish_, chosen);
     return std::move(chosen);
   }
 
  private:
   /// Of a trade-off what is listed is what can be picked from it in another run: no more is tried.
   SqueezedTrial& choose() {
-    if (options_.point) return found_.point(*options_.point);
+    if (options_.point) return found_.point(wish_);
     SqueezedTrial& best = found_.best(wish_);
     return options_.trade_off ? best : symmetric(trials_, wish_, best, step(), found_);
   }
