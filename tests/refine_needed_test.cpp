@@ -394,6 +394,32 @@ TEST(Needed, SymmetricMeshesAreCutSymmetrically) {
   }
 }
 
+// Edges of four faces: torn in both copies they are two seams.
+TEST(Needed, CopiesInPlaceGrowEachByItsOwnCuts) {
+  Atlas atlas = shapes::combine({flat_s(), flat_s()});
+  const std::size_t half = atlas.positions.size() / 2;
+  std::copy_n(atlas.positions.begin(), half, atlas.positions.begin() + static_cast<std::ptrdiff_t>(half));
+  RefineOptions options = needed_within(1 + 0.3 * (without_cuts(atlas) - 1));
+  options.stacks = Stacks::Separate;
+  const RefineResult result = refine_soundly(atlas, options);
+  EXPECT_GT(result.cuts->cuts, 1);
+  EXPECT_NEAR(result.boundary_growth, result.cuts->trade_off[result.cuts->chosen].boundary_growth, 1e-6);
+}
+
+// Other cuts, into what is pent up, ended with twice the seams and two pieces.
+TEST(Needed, TubesAreOpenedByOneStraightCut) {
+  for (const double twist_rad : {0.0, 0.25, 0.5}) {
+    SCOPED_TRACE(twist_rad);
+    const Atlas tube = tube_as_ring(12, 3, twist_rad);
+    RefineOptions options = needed();
+    options.cut = Cut::Edges;
+    const RefineResult result = refine_soundly(tube, options);
+    EXPECT_LT(result.after.distortion, 1.001);
+    EXPECT_EQ(result.after.chart_count, 1);
+    EXPECT_EQ(result.added_seams, 3);
+  }
+}
+
 TEST(Needed, TheTradeOffHasEveryChoice) {
   const Atlas atlas = flat_s();
   RefineOptions options = needed();

@@ -382,6 +382,7 @@ TEST(Groups, OneThatCannotReachTheBoundKeepsItsUVsAndTheOthersAreRefined) {
   options.group_names = {"bark", "glass", "leaf"};
   for (const Seams seams : {Seams::None, Seams::Rectangles}) {
     options.seams = seams;
+    options.cut = Cut::Edges;  // across its only face it can be cut, and then be packed
     const RefineResult result = refine(atlas, options);
     EXPECT_FALSE(result.bound_met);
     ASSERT_EQ(result.groups.size(), 3u);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 
 #include "cut_checks.h"
 #include "output_checks.h"
@@ -364,6 +365,30 @@ TEST(RefineRectangles, ChartsOfOneLongFaceAreCutAcross) {
     const RefineResult result = refine_soundly(atlas, options);
     EXPECT_EQ(result.intervention, Intervention::Cut);
     EXPECT_LT(result.after.distortion, 1.01);
+  }
+}
+
+/// As few faces as there can be: two for each point.
+Atlas fan_star(int points, double inner_radius) {
+  std::vector<Vec3> positions = {Vec3::Zero()};
+  std::vector<std::vector<int>> faces;
+  for (int k = 0; k < 2 * points; ++k) {
+    const double radius = k % 2 == 0 ? 1 : inner_radius, angle = std::numbers::pi * k / points;
+    positions.push_back(radius * Vec3(std::cos(angle), std::sin(angle), 0));
+    faces.push_back({0, k + 1, (k + 1) % (2 * points) + 1});
+  }
+  return flat_atlas(positions, faces);
+}
+
+// Whole, they end at 4.1, 4.8 and 5.9.
+TEST(RefineRectangles, ChartsWithoutTrailsAreCutAcrossTheirNecks) {
+  for (const int points : {7, 8, 9}) {
+    SCOPED_TRACE(points);
+    const RefineResult result = refine_soundly(fan_star(points, 0.25), rectangles());
+    EXPECT_EQ(result.intervention, Intervention::Cut);
+    EXPECT_LT(result.after.distortion, 1.01);
+    EXPECT_TRUE(says(result.fallbacks, "cut across necks"));
+    EXPECT_FALSE(says(result.warnings, "no chart needs a cut"));
   }
 }
 

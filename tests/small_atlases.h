@@ -59,6 +59,29 @@ inline Atlas tube(int sides, double length) {
   return atlas;
 }
 
+/// An open tube of quads, `along` rows of `around`, radius and rows 1, its UVs a ring: as seen from one end, each row smaller
+/// than the one before it and turned by `twist_rad` against it.
+inline Atlas tube_as_ring(int around, int along, double twist_rad) {
+  constexpr double kNarrower = 0.7;
+  std::vector<Vec3> positions;
+  std::vector<std::vector<int>> faces;
+  for (int j = 0; j <= along; ++j) {
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2 * std::numbers::pi * i / around;
+      positions.emplace_back(std::cos(angle), std::sin(angle), j);
+      const int next = (i + 1) % around, row = j * around;
+      if (j < along) faces.push_back({row + i, row + around + i, row + around + next, row + next});
+    }
+  }
+  Atlas atlas = flat_atlas(positions, faces);
+  for (int c = 0; c < atlas.corner_count(); ++c) {
+    const Vec3& p = positions[atlas.corner_vertices[c]];
+    const double radius = std::pow(kNarrower, p.z()), angle = std::atan2(p.y(), p.x()) + twist_rad * p.z();
+    atlas.corner_uvs[c] = radius * Vec2(std::cos(angle), std::sin(angle));
+  }
+  return atlas;
+}
+
 /// A cone, rolled out in the UVs to half a square; its tip is a whole column of vertices, each one at the same place.
 inline Atlas cone(int count) {
   std::vector<Vec3> positions;

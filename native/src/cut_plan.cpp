@@ -156,4 +156,12 @@ RectangleReport report_of(const CutPlan& plan) {
   return report;
 }
 
+std::vector<int> uncut_charts(const CutPlan& plan) {
+  std::vector<int> out;
+  for (int c = 0; c < static_cast<int>(plan.aligned.size()); ++c) {
+    if (plan.layout.trails[c].empty() && bends(plan.freedom, c)) out.push_back(c);
+  }
+  return out;
+}
+
 }  // namespace atlas_refine

@@ -16,8 +16,9 @@ namespace atlas_refine {
 /// A solution, or why there is none.
 struct Attempt {
   std::optional<Solution> solution = {};
-  bool needless = false;     ///< no chart needs a cut
-  std::string failure = {};  ///< why cuts did not lead to the bound
+  bool needless = false;        ///< no chart needs a cut
+  std::string failure = {};     ///< why cuts did not lead to the bound
+  std::vector<int> uncut = {};  ///< charts that bend and have no trails: deformed to rectangles, or not to the axes at all
 };
 
 /// What is known before the cuts.
@@ -41,5 +42,8 @@ CutPlan plan_cuts(const Refinement& run, const ProgressRange& range);
 LayoutOptions layout_options(const Refinement& run);
 
 RectangleReport report_of(const CutPlan& plan);
+
+/// Attempt::uncut
+std::vector<int> uncut_charts(const CutPlan& plan);
 
 }  // namespace atlas_refine

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "atlas_refine/error.h"
@@ -175,21 +176,30 @@ Solution as_it_lies(const InputAtlas& input, const RefineOptions& options) {
   return out;
 }
 
-/// The road that cuts; nothing where charts are better left whole, which the journal then says.
-std::optional<CertifiedSolution> solve_with_cuts(const Refinement& run, const ProgressRange& range) {
+/// What the road of rectangles came to; without a solution charts are better left whole, which the journal says unless it is
+/// `needless` to cut.
+struct CutAttempt {
+  std::optional<CertifiedSolution> solution = {};
+  bool needless = false;
+  std::vector<int> uncut = {};  ///< Attempt::uncut
+};
+
+CutAttempt solve_with_cuts(const Refinement& run, const ProgressRange& range) {
   Journal& journal = run.journal;
   const Journal::Mark before = journal.mark();
   std::string failure;
+  CutAttempt out;
   try {
     Attempt attempt = refine_by_rectangles(run, range.part(0, 0.96));
+    out.needless = attempt.needless;
+    out.uncut = std::move(attempt.uncut);
     if (attempt.solution) {
       CertifiedSolution result = certified(run, std::move(*attempt.solution), range);
       if (!run.options.rectangles.until_input) failure = compare_with_whole(run, result, range);
-      if (failure.empty()) return result;
-    } else if (attempt.needless) {
-      journal.back_to(before);
-      journal.warnings.emplace_back("no chart needs a cut");
-      return std::nullopt;
+      if (failure.empty()) {
+        out.solution = std::move(result);
+        return out;
+      }
     } else {
       failure = attempt.failure;
     }
@@ -198,19 +208,82 @@ std::optional<CertifiedSolution> solve_with_cuts(const Refinement& run, const Pr
     failure = error.what();
   }
   journal.back_to(before);
-  journal.fallbacks.push_back("charts were not cut into rectangles: " + failure);
+  if (!out.needless) journal.fallbacks.push_back("charts were not cut into rectangles: " + failure);
+  return out;
+}
+
+bool holds(const Refinement& run, const CertifiedSolution& result) {
+  const Measures& after = result.atlas.after;
+  return after.pe_fixed_aspect >= run.asked.pe_bound && within_limits(run.asked, after);
+}
+
+/// Whether cuts across these charts should be looked for: the bound or a limit is missed, or they have become worse than they
+/// came.
+bool have_lost(const Refinement& run, const CertifiedSolution& result, const std::vector<int>& charts) {
+  constexpr double kLoss = 0.01;  // of E_d
+  double area = 0, lost = 0;
+  for (const ChartReport& chart : result.atlas.charts) area += chart.area;
+  for (const int c : charts) {
+    const ChartReport& chart = result.atlas.charts[c];
+    lost += chart.area * std::max(0.0, chart.distortion_after - chart.distortion_before);
+  }
+  return !charts.empty() && (!holds(run, result) || lost > kLoss * area);
+}
+
+/// Charts that are cut across necks, where that is better.
+std::optional<CertifiedSolution> cut_across_necks(const Refinement& run, const CertifiedSolution& present,
+                                                  const ProgressRange& range) {
+  const auto rank = [&](const CertifiedSolution& s) { return std::pair(!holds(run, s), s.atlas.after.distortion); };
+  try {
+    CertifiedSolution out = certified(run, cut_as_needed(run, range.part(0, 0.96)), range);
+    if (out.solution.intervention == Intervention::Cut && rank(out) < rank(present)) return out;
+  } catch (const RefineError& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;
+  } catch (const UnmendedCharts&) {
+    return std::nullopt;  // only whole they cannot be made valid
+  }
   return std::nullopt;
 }
 
-CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
-  RefineOptions options = run.options;
-  if (options.seams == Seams::Rectangles) {
-    if (auto cut = solve_with_cuts(run, range)) return std::move(*cut);
+CertifiedSolution solve_whole(const Refinement& run, const ProgressRange& range) {
+  return certified(run, refine_whole(run, range.part(0, 0.96)), range);
+}
+
+/// Trails start at corners of charts that are aligned to the axes. Of those that have none the layout knows no cut, though there
+/// may be necks.
+CertifiedSolution solve_by_rectangles(const Refinement& run, const ProgressRange& range) {
+  Journal& journal = run.journal;
+  const Journal::Mark before = journal.mark();
+  auto [best, needless, uncut] = solve_with_cuts(run, range);
+  if (!best) {
+    RefineOptions options = run.options;
     options.relax = goes_on(run, run.input.set.charts.size());  // also where charts are not cut
+    best = solve_whole({run.input, options, run.monitor, journal, run.threads, run.asked}, range);
   }
-  if (options.seams == Seams::Needed) return certified(run, cut_as_needed(run, range.part(0, 0.96)), range);
-  const Refinement whole{run.input, options, run.monitor, run.journal, run.threads, run.asked};
-  return certified(whole, refine_whole(whole, range.part(0, 0.96)), range);
+  const bool lost = have_lost(run, *best, uncut);
+  if (needless) journal.warnings.emplace_back(lost ? "no cuts were found that help" : "no chart needs a cut");
+  if (!lost || run.monitor.finishing()) return std::move(*best);
+  const auto told = std::tuple(journal.repairs, journal.fallbacks, journal.warnings);
+  journal.back_to(before);
+  if (auto other = cut_across_necks(run, *best, range)) {
+    journal.fallbacks.emplace_back(
+        "cut across necks, as with needed seams: aligned to the axes some charts have no corner to cut from");
+    return std::move(*other);
+  }
+  std::tie(journal.repairs, journal.fallbacks, journal.warnings) = told;
+  return std::move(*best);
+}
+
+CertifiedSolution solve(const Refinement& run, const ProgressRange& range) {
+  switch (run.options.seams) {
+    case Seams::Rectangles:
+      return solve_by_rectangles(run, range);
+    case Seams::Needed:
+      return certified(run, cut_as_needed(run, range.part(0, 0.96)), range);
+    case Seams::None:
+      break;
+  }
+  return solve_whole(run, range);
 }
 
 /// Most of the surface may lose stretch while E_d rises, and the other way round, so the engine is held back by a limit of

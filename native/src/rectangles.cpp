@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <tuple>
 
 #include "atlas_refine/error.h"
@@ -18,40 +17,10 @@
 #include "rectangle_pictures.h"
 #include "reduce_pieces.h"
 #include "report/locked.h"
+#include "report/wished_edges.h"
 
 namespace atlas_refine {
 namespace {
-
-/// How many edges that must stay whole the cuts run along or across.
-int forbidden_edges_cut(const CutPlan& plan, const CutAtlas& cut) {
-  const std::vector<SidePrices>& prices = plan.prices;
-  using ChartEdge = std::tuple<int, int, int>;  // chart, lower and higher vertex
-  std::set<ChartEdge> forbidden, hit;
-  for (int c = 0; c < static_cast<int>(prices.size()); ++c) {
-    for (std::size_t t = 0; t < prices[c].size(); ++t) {
-      for (int k = 0; k < 3; ++k) {
-        const auto [low, high] = std::minmax(plan.sources[c].triangles[t][k], plan.sources[c].triangles[t][(k + 1) % 3]);
-        if (prices[c][t][k] == kNoSeam) forbidden.insert({c, low, high});
-      }
-    }
-  }
-  const auto note = [&](int chart, const std::set<int>& vertices) {
-    const ChartEdge edge{chart, *vertices.begin(), *vertices.rbegin()};
-    if (vertices.size() == 2 && forbidden.contains(edge)) hit.insert(edge);
-  };
-  for (const Seam& seam : cut.seams) {
-    std::set<int> both;
-    for (int end : seam.ends) {
-      std::set<int> own = {end};
-      if (end < 0) own = {cut.points[~end].support.vertices.begin(), cut.points[~end].support.vertices.end()};
-      own.erase(-1);
-      note(seam.chart, own);
-      both.insert(own.begin(), own.end());
-    }
-    note(seam.chart, both);
-  }
-  return static_cast<int>(hit.size());
-}
 
 /// What is told of the cuts; only once they are the result.
 void tell(const Refinement& run, const CutPlan& plan, const CutAtlas& cut, const RectangleReport& report) {
@@ -79,9 +48,7 @@ void tell(const Refinement& run, const CutPlan& plan, const CutAtlas& cut, const
     journal.warnings.push_back("the gap was reduced from " + number_text("%g", Gap{}.value) + " to " +
                                number_text("%g", layout.gap.value) +
                                " of the box diagonal: no layout holds the bound with a larger one");
-  if (const int count = forbidden_edges_cut(plan, cut); count > 0)
-    journal.warnings.push_back("cuts run along or across " + std::to_string(count) + (count == 1 ? " edge" : " edges") +
-                               " where no seam is wanted");
+  warn_of_forbidden_edges(plan.prices, plan.sources, cut, journal);
 }
 
 /// Charts divided along the trails and taken apart, where the axis-aligned charts lie.
@@ -186,8 +153,11 @@ Attempt refine_by_rectangles(const Refinement& run, const ProgressRange& range) 
     for (const auto& picture : rectangle_pictures(plan->charts, plan->aligned, plan->layout.trails, run.options.rectangles.sigma))
       run.journal.show(picture);
   }
-  return along_edges ? cut_along_edges(run, std::move(*plan), range.part(0.45, 1))
-                     : cut_across_faces(run, std::move(*plan), range.part(0.45, 1));
+  std::vector<int> uncut = uncut_charts(*plan);
+  Attempt out = along_edges ? cut_along_edges(run, std::move(*plan), range.part(0.45, 1))
+                            : cut_across_faces(run, std::move(*plan), range.part(0.45, 1));
+  out.uncut = std::move(uncut);
+  return out;
 }
 
 }  // namespace atlas_refine

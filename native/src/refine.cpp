@@ -202,7 +202,8 @@ RefineResult refine_atlas(const Atlas& input, const std::vector<char>& has_uvs, 
     journal.warnings.push_back("charts of several groups were parted along " + std::to_string(between_groups) +
                                (between_groups == 1 ? " edge" : " edges"));
   const double boundary = boundary_on_surface(whole.set.charts);
-  result.boundary_growth = boundary > 0 ? std::max(0.0, 2 * (torn.length - seams.length) / boundary) : 0;
+  // Where charts lie on each other in space an edge is torn in each of them.
+  result.boundary_growth = boundary > 0 ? std::max(0.0, (torn.open - seams.open) / boundary) : 0;
   result.added_seams = assembled.cut_edges + static_cast<int>(parted.size()) + between_groups;
   result.corner_uvs = std::move(assembled.mesh.corner_uvs);
   result.cut = std::move(assembled.cut);
@@ -232,13 +233,8 @@ Profile profile_of(const Account& account) {
   return out;
 }
 
-/// Where some chart is locked, or where that is asked, the box is the texture, which is square unless said otherwise. A point of
-/// the trade-off is wanted whatever its distortion.
+/// Where some chart is locked, or where that is asked, the box is the texture, which is square unless said otherwise.
 RefineOptions settled(RefineOptions options) {
-  if (options.point) {
-    options.max_distortion.reset();
-    options.max_stretch.reset();
-  }
   const bool locked = std::any_of(options.locked.begin(), options.locked.end(), [](char flag) { return flag != 0; });
   if ((locked || options.in_texture) && options.box_aspect == 0) options.box_aspect = 1;
   return options;

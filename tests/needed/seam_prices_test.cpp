@@ -73,6 +73,21 @@ TEST(SeamPrices, CutsRunAlongEdgesThatAreWanted) {
   }
 }
 
+TEST(SeamPrices, WhereFacesAreDividedEdgesThatMustStayWholeAreToldOf) {
+  const Atlas atlas = plus();
+  RefineOptions options = one_cut(atlas);
+  options.cut = Cut::Split;
+  const std::string told = "where no seam is wanted";
+  EXPECT_FALSE(testing::says(refine(atlas, options).warnings, told));
+  for (int f = 0; f < atlas.face_count(); ++f) {
+    for (int k = 0; k < 4; ++k)
+      options.no_seam.push_back({atlas.corner_vertices[4 * f + k], atlas.corner_vertices[4 * f + (k + 1) % 4]});
+  }
+  const RefineResult result = refine(atlas, options);
+  EXPECT_GT(result.cuts->cuts, 0);
+  EXPECT_TRUE(testing::says(result.warnings, told));
+}
+
 TEST(SeamPrices, CutsRunWhereTheyAreHidden) {
   for (int arm = 0; arm < 4; ++arm) {
     Atlas atlas = plus();

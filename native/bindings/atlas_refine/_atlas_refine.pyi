@@ -206,7 +206,7 @@ class CutReport:
     @property
     def trade_off(self) -> list[TradeOff]: ...  # by growth; with several groups empty
     @property
-    def chosen(self) -> int: ...  # index into it of the result, or of what is as good; -1 where it is empty
+    def chosen(self) -> int: ...  # index into it of the result; -1 where it is empty
     def as_dict(self) -> dict[str, Any]: ...
 
 class Repair:

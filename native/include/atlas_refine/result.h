@@ -14,7 +14,8 @@ namespace atlas_refine {
 /// What was done. With Seams::None the least of the first three that holds the bound; with `relax` charts are squeezed, unless
 /// the input is at the bound and no less distorted atlas was found. With Seams::Needed the same, or cut. With Seams::Rectangles
 /// charts are cut, unless the input is at the bound (as before), no chart needs a cut (a warning says so), or the cuts came to
-/// nothing (a fallback says why): then it is one of the first three.
+/// nothing (a fallback says why): then it is one of the first three. Charts that have no corner to cut from and would be crushed
+/// are cut as with Seams::Needed (a fallback says so).
 enum class Intervention { Unchanged, Moved, Squeezed, Cut };
 const char* to_string(Intervention intervention);
 
@@ -111,8 +112,8 @@ struct TradeOff {
 struct CutReport {
   int cuts = 0;                     ///< from border to border, or to a point inside
   int tried = 0;                    ///< sets of cuts whose outcome was forecast
-  std::vector<TradeOff> trade_off;  ///< by growth; with several groups empty
-  int chosen = -1;                  ///< index into it of the result, or of what is as good; -1 where it is empty
+  std::vector<TradeOff> trade_off;  ///< by growth, the result among them; with several groups empty
+  int chosen = -1;                  ///< index into it of the result; -1 where it is empty
 };
 
 struct StageTime {
@@ -181,7 +182,7 @@ struct RefineResult {
   std::vector<int> face_charts;     ///< one per face of the input: index into `charts`
   std::vector<PieceReport> pieces;  ///< one per chart of the output; empty unless Intervention::Cut
   std::optional<RectangleReport> rectangles;
-  std::optional<CutReport> cuts;       ///< with Seams::Needed; sums of several groups
+  std::optional<CutReport> cuts;       ///< with Seams::Needed, and rectangles cut across necks instead; sums of several groups
   std::vector<GroupReport> groups;     ///< empty without RefineOptions::groups
   std::vector<Repair> repairs;         ///< what was mended and where
   std::vector<std::string> fallbacks;  ///< one line each: what was tried first, and what was done instead

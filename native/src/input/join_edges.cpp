@@ -92,9 +92,13 @@ class Winding {
 
 void count_seam(const Atlas& atlas, EdgeUses uses, EdgeJoins& joins) {
   const auto joined = [&](const EdgeUse& use) { return joins.partners[use.corner] >= 0; };
-  if (uses.size() < 2 || !uses[0].has_length() || std::all_of(uses.begin(), uses.end(), joined)) return;
+  const auto open = uses.size() - std::count_if(uses.begin(), uses.end(), joined);
+  if (open == 0 || !uses[0].has_length()) return;
+  const double length = (atlas.positions[uses[0].low_vertex] - atlas.positions[uses[0].high_vertex]).norm();
+  joins.open_length += static_cast<double>(open) * length;
+  if (uses.size() < 2) return;
   ++joins.seam_edges;
-  joins.seam_length += (atlas.positions[uses[0].low_vertex] - atlas.positions[uses[0].high_vertex]).norm();
+  joins.seam_length += length;
 }
 
 /// Calls body(range) for the uses of one edge by faces of one group, group by group.

@@ -25,6 +25,7 @@ struct EdgeJoins {
   std::vector<bool> turned_faces;  ///< faces wound against the first face of their chart
   int seam_edges = 0;              ///< edges in space that belong to two faces or more and are not joined throughout
   double seam_length = 0;          ///< their length in space, each once
+  double open_length = 0;          ///< in space, of all sides of faces that are joined with no other: the charts' boundary
 
   int next_corner(const Atlas& atlas, int corner) const {
     const int face = corner_faces[corner];

@@ -190,6 +190,7 @@ ChartSet split_charts(const Atlas& atlas, Joining joining, const std::vector<int
                          [&] { sides = orient_charts(atlas, joins, face_charts); }});
   set.seam_edges = joins.seam_edges;
   set.seam_length = joins.seam_length;
+  set.open_length = joins.open_length;
   set.folds = folds_of(atlas, joins, set.corners, face_charts.count, parted);
   set.mirrored = sides.mirrored;
   set.mixed_winding = sides.mixed;

@@ -38,6 +38,7 @@ struct ChartSet {
   std::vector<FaceReading> readings;  ///< one per input face
   int seam_edges = 0;                 ///< edges in space between two faces or more that are not joined in the UV map, nor folds
   double seam_length = 0;             ///< their length in space, each once, without natural boundary
+  double open_length = 0;             ///< EdgeJoins::open_length
 };
 
 /// Splits an atlas by UV connectivity, as join_edges() has it: faces that share an edge (by vertex, or by equal positions) with
@@ -51,7 +52,7 @@ struct ChartSet {
 ChartSet split_charts(const Atlas& atlas, Joining joining = Joining::AsMeant, const std::vector<int>& groups = {},
                       int threads = 1);
 
-/// These charts of the set alone, in this order; `seam_edges` and `seam_length` are not theirs and stay 0.
+/// These charts of the set alone, in this order; `seam_edges` and the lengths are not theirs and stay 0.
 ChartSet select_charts(const ChartSet& set, const std::vector<int>& charts);
 
 /// The same charts where the input's UVs lie: mirrored charts are turned back, their triangles still counterclockwise.

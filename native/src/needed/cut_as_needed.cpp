@@ -9,6 +9,7 @@
 
 #include "needed/cut_outcomes.h"
 #include "needed/cut_path.h"
+#include "report/wished_edges.h"
 
 namespace atlas_refine {
 namespace {
@@ -207,7 +208,7 @@ void look_for_all(Search& search) {
 /// Of a trade-off what is listed is what can be picked from it in another run: no more is tried.
 SqueezedTrial& choose(Search& search) {
   const RefineOptions& options = search.options;
-  if (options.point) return search.found.point(*options.point);
+  if (options.point) return search.found.point(search.wish);
   SqueezedTrial& best = search.found.best(search.wish);
   return options.trade_off ? best : symmetric(search.trials, search.wish, best, search.step(), search.found);
 }
@@ -226,7 +227,7 @@ SqueezedTrial found_by(Search& search) {
   else
     look_for_best(search);
   SqueezedTrial& chosen = choose(search);
-  CutReport report = search.found.report(chosen.trial);
+  CutReport report = search.found.report(search.wish, chosen);
   SqueezedTrial& out = moved && &chosen == &search.found.squeezed.front() ? *moved : chosen;
   out.solution.cuts = std::move(report);
   return std::move(out);
@@ -244,6 +245,7 @@ Solution cut_as_needed(const Refinement& run, const ProgressRange& range) {
   SqueezedTrial best = found_by(search);
   run.journal.fallbacks.insert(run.journal.fallbacks.end(), best.fallbacks.begin(), best.fallbacks.end());
   run.journal.warnings.insert(run.journal.warnings.end(), best.warnings.begin(), best.warnings.end());
+  if (!best.trial.cuts.empty()) warn_of_forbidden_edges(trials.prices(), run.input.set.charts, best.solution.atlas, run.journal);
   best.solution.re_embedded = trials.mended();
   return std::move(best.solution);
 }

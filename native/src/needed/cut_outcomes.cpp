@@ -4,9 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace atlas_refine {
+namespace {
+
+constexpr double kAsLong = 1.02;  // times the boundary: with no more, what is chosen is listed instead of what is as good
+
+}  // namespace
 
 double loss(const Trial& trial) { return std::min(trial.distortion, kHopeless); }
 
@@ -36,32 +42,38 @@ SqueezedTrial& Outcomes::best(const Wish& wish) {
   return squeezed[best];
 }
 
-std::vector<TradeOff> Outcomes::trade_off() const {
-  std::vector<TradeOff> all;
-  for (const auto& [trial, solution, fallbacks, warnings] : squeezed)
-    all.push_back({trial.growth, trial.distortion, trial.cut_count()});
-  std::stable_sort(all.begin(), all.end(), [](const TradeOff& a, const TradeOff& b) {
-    return std::pair(a.boundary_growth, a.distortion) < std::pair(b.boundary_growth, b.distortion);
+/// By growing boundary those than which no other has both less boundary and less distortion, and what is chosen: a limit may
+/// part it from one with less boundary that has hardly more distortion.
+std::vector<SqueezedTrial*> Outcomes::front(const SqueezedTrial& chosen) {
+  std::vector<SqueezedTrial*> all, out;
+  for (SqueezedTrial& outcome : squeezed) all.push_back(&outcome);
+  std::stable_sort(all.begin(), all.end(), [](const SqueezedTrial* a, const SqueezedTrial* b) {
+    return std::pair(a->trial.growth, a->trial.distortion) < std::pair(b->trial.growth, b->trial.distortion);
   });
-  std::vector<TradeOff> out;
-  for (const TradeOff& outcome : all) {
-    if (std::isfinite(outcome.distortion) && (out.empty() || outcome.distortion < out.back().distortion - kSettled))
-      out.push_back(outcome);
+  double least = std::numeric_limits<double>::infinity();
+  for (SqueezedTrial* outcome : all) {
+    const auto& [distortion, growth] = std::tie(outcome->trial.distortion, outcome->trial.growth);
+    const bool is_less = distortion < least - kSettled;
+    if (!is_less && (outcome != &chosen || !std::isfinite(distortion))) continue;
+    const bool is_instead = !is_less && growth <= kAsLong * out.back()->trial.growth && distortion <= least + kSettled;
+    if (is_instead) out.pop_back();
+    out.push_back(outcome);
+    if (is_less) least = distortion;
   }
   return out;
 }
 
-SqueezedTrial& Outcomes::point(int number) {
-  const std::vector<TradeOff> front = trade_off();
-  const TradeOff& wanted = front[std::min<std::size_t>(number, front.size() - 1)];
-  return *std::find_if(squeezed.begin(), squeezed.end(), [&](const SqueezedTrial& s) {
-    return s.trial.growth == wanted.boundary_growth && s.trial.distortion == wanted.distortion;
-  });
+SqueezedTrial& Outcomes::point(const Wish& wish) {
+  const std::vector<SqueezedTrial*> front = this->front(best(wish));
+  return *front[std::min<std::size_t>(*wish.options.point, front.size() - 1)];
 }
 
-CutReport Outcomes::report(const Trial& chosen) const {
-  CutReport out{chosen.cut_count(), tried, trade_off()};
-  for (const TradeOff& outcome : out.trade_off) out.chosen += outcome.boundary_growth <= chosen.growth;
+CutReport Outcomes::report(const Wish& wish, const SqueezedTrial& chosen) {
+  CutReport out{.cuts = chosen.trial.cut_count(), .tried = tried};
+  for (const SqueezedTrial* outcome : front(wish.options.point ? best(wish) : chosen)) {
+    if (outcome == &chosen) out.chosen = static_cast<int>(out.trade_off.size());
+    out.trade_off.push_back({outcome->trial.growth, outcome->trial.distortion, outcome->trial.cut_count()});
+  }
   return out;
 }
 

@@ -46,10 +46,13 @@ struct Outcomes {
   int tried = 0;
 
   SqueezedTrial& best(const Wish& wish);
-  /// Those than which no other has both less boundary and less distortion.
-  std::vector<TradeOff> trade_off() const;
-  SqueezedTrial& point(int number);
-  CutReport report(const Trial& chosen) const;
+  /// The point of the trade-off that the options name, numbered as where that is listed.
+  SqueezedTrial& point(const Wish& wish);
+  /// `chosen`: what is written, one of `squeezed`.
+  CutReport report(const Wish& wish, const SqueezedTrial& chosen);
+
+ private:
+  std::vector<SqueezedTrial*> front(const SqueezedTrial& chosen);
 };
 
 }  // namespace atlas_refine

@@ -16,6 +16,10 @@ constexpr double kLikelyShare = 0.15;   // of the distortion near a cut that rel
 constexpr double kMostShare = 0.9;      // of all distortion that one cut may release
 constexpr double kPriorStrain = 0.005;  // of E_d, that outlines tell; what they have told counts more from then on
 constexpr double kPriorNear = 0.2;      // the same of distortion near cuts, as a part of all
+constexpr double kPriorFreed = 0.2;     // and of what holes cost that are opened, which is thought to go
+
+/// What it opens a hole for is more than what is near it.
+bool opens_hole(const CutPlace& place) { return place.freed > place.released; }
 
 }  // namespace
 
@@ -32,14 +36,18 @@ bool has_any(const std::vector<std::vector<CutPlace>>& sets, const std::vector<C
 }
 
 void Savings::learn(const CutPlace& place, double before, double less_strain, double foreseen, double gain) {
-  if (less_strain > 0) {
+  const double saved = std::max(0.0, 1 - std::exp(-gain));
+  if (opens_hole(place)) {
+    freeable_ += place.freed / std::exp(before);
+    freed_ += saved;
+  } else if (less_strain > 0) {
     strain_ += less_strain;
-    for_strain_ += std::exp(before) * std::max(0.0, 1 - std::exp(-gain));
+    for_strain_ += std::exp(before) * saved;
   } else {
     near_ += place.released / std::exp(before);
-    relaxed_ += std::max(0.0, 1 - std::exp(-gain));
+    relaxed_ += saved;
   }
-  if (foreseen > 0) {
+  if (foreseen > 0 && !opens_hole(place)) {
     foreseen_ += foreseen;
     came_ += std::max(0.0, gain);
   }
@@ -54,7 +62,8 @@ void Savings::learn(const CutPlace& place, double before, double less_strain, do
 double Savings::foresee(const CutPlace& place, double less_strain, double before) const {
   const auto known = find(place);
   if (known != known_.end() && less_strain == 0) return known->gain;
-  const double near = (kPriorNear * kLikelyShare + relaxed_) / (kPriorNear + near_) * place.released;
+  const double near = opens_hole(place) ? (kPriorFreed + freed_) / (kPriorFreed + freeable_) * place.freed
+                                        : (kPriorNear * kLikelyShare + relaxed_) / (kPriorNear + near_) * place.released;
   const double packed = (kPriorStrain + for_strain_) / (kPriorStrain + strain_) * std::max(0.0, less_strain);
   return -std::log(1 - std::min(kMostShare, (near + packed) / std::exp(before)));
 }

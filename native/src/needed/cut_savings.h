@@ -40,7 +40,7 @@ class Savings {
   std::vector<Saving>::const_iterator find(const CutPlace& place) const;
 
   std::vector<Saving> known_;
-  double near_ = 0, relaxed_ = 0, foreseen_ = 0, came_ = 0, strain_ = 0, for_strain_ = 0;
+  double near_ = 0, relaxed_ = 0, freeable_ = 0, freed_ = 0, foreseen_ = 0, came_ = 0, strain_ = 0, for_strain_ = 0;
 };
 
 }  // namespace atlas_refine

@@ -97,6 +97,7 @@ class CutTrials {
   bool finishing() const { return run_.monitor.finishing(); }
 
   const std::vector<int>& mended() const { return whole_.mended; }
+  const std::vector<SidePrices>& prices() const { return prices_; }
 
   /// Of so few triangles that a thorough search takes next to nothing.
   bool is_small() const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geometry/guards.h"
 #include "geometry/near_pairs.h"
 #include "measure/certificate.h"
 #include "measure/distortion.h"
@@ -54,6 +55,7 @@ std::optional<Chart> part_touching(const Chart& chart) {
         if (touching[v]) parted.uvs[v] += share / count[v] * inward[v];
       }
       if (!certify_charts({parted}).valid()) continue;
+      drop_broken_guards(parted);
       if (!touches_itself(parted)) return parted;
       if (!valid) valid = parted;
     }

@@ -35,9 +35,10 @@ Measures combined(const std::vector<Measures>& parts, const std::vector<double>&
 struct SeamCount {
   int edges = 0;
   double length = 0;
+  double open = 0;  ///< EdgeJoins::open_length
 };
-inline SeamCount seams_of(const EdgeJoins& joins) { return {joins.seam_edges, joins.seam_length}; }
-inline SeamCount seams_of(const ChartSet& set) { return {set.seam_edges, set.seam_length}; }
+inline SeamCount seams_of(const EdgeJoins& joins) { return {joins.seam_edges, joins.seam_length, joins.open_length}; }
+inline SeamCount seams_of(const ChartSet& set) { return {set.seam_edges, set.seam_length, set.open_length}; }
 
 /// Sets what is measured on seams.
 void measure_seams(const Atlas& atlas, const SeamCount& seams, Measures& measures);

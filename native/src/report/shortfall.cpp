@@ -38,6 +38,7 @@ std::string words_on_gap(const std::vector<Chart>& charts, const RefineOptions& 
 
 bool within_limits(const RefineOptions& options, const Measures& of) {
   constexpr double kStored = 1e-5;  // of stretch, that rounding of stored UVs adds to small triangles
+  if (options.point) return true;   // of the trade-off: it is wanted whatever its distortion
   const bool kept = !options.max_distortion || of.distortion <= *options.max_distortion * (1 + 1e-9);
   return kept && (!options.max_stretch || of.stretch_99 <= *options.max_stretch * (1 + kStored));
 }
@@ -57,7 +58,7 @@ std::string shortfall(const InputAtlas& input, const RefineOptions& options, con
   const std::string figures = "packing efficiency " + number_text("%.4f", after.pe_fixed_aspect) + " at E_d " +
                               number_text("%.4f", after.distortion) +
                               (options.max_stretch ? ", stretch " + number_text("%.4f", after.stretch_99) : "");
-  const std::string limit = words_on_limits(options);
+  const std::string limit = options.point ? "" : words_on_limits(options);
   if (!within_limits(options, after)) {
     const std::string growth = options.seams == Seams::Needed && options.max_boundary_growth
                                    ? " and a boundary growth of " + number_text("%g", *options.max_boundary_growth)

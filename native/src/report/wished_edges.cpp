@@ -1,8 +1,10 @@
-// Edges that the caller has wishes for, and that the mesh does not have.
+// Edges that the caller has wishes for: which the mesh does not have, and which were cut all the same.
 #include "report/wished_edges.h"
 
 #include <algorithm>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "input/places.h"
@@ -27,6 +29,36 @@ std::vector<Edge> edges_in_space(const Atlas& atlas, const std::vector<int>& pla
   return out;
 }
 
+/// How many edges that must stay whole the cuts run along or across.
+int forbidden_edges_cut(const std::vector<SidePrices>& prices, const std::vector<Chart>& sources, const CutAtlas& cut) {
+  using ChartEdge = std::tuple<int, int, int>;  // chart, lower and higher vertex
+  std::set<ChartEdge> forbidden, hit;
+  for (int c = 0; c < static_cast<int>(prices.size()); ++c) {
+    for (std::size_t t = 0; t < prices[c].size(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax(sources[c].triangles[t][k], sources[c].triangles[t][(k + 1) % 3]);
+        if (prices[c][t][k] == kNoSeam) forbidden.insert({c, low, high});
+      }
+    }
+  }
+  const auto note = [&](int chart, const std::set<int>& vertices) {
+    const ChartEdge edge{chart, *vertices.begin(), *vertices.rbegin()};
+    if (vertices.size() == 2 && forbidden.contains(edge)) hit.insert(edge);
+  };
+  for (const Seam& seam : cut.seams) {
+    std::set<int> both;
+    for (int end : seam.ends) {
+      std::set<int> own = {end};
+      if (end < 0) own = {cut.points[~end].support.vertices.begin(), cut.points[~end].support.vertices.end()};
+      own.erase(-1);
+      note(seam.chart, own);
+      both.insert(own.begin(), own.end());
+    }
+    note(seam.chart, both);
+  }
+  return static_cast<int>(hit.size());
+}
+
 }  // namespace
 
 void tell_of_missing_edges(const Atlas& atlas, const RefineOptions& options, Journal& journal) {
@@ -49,6 +81,14 @@ void tell_of_missing_edges(const Atlas& atlas, const RefineOptions& options, Jou
   };
   tell(options.no_seam, "edges without seams");
   tell(options.prefer_seam, "edges for seams");
+}
+
+void warn_of_forbidden_edges(const std::vector<SidePrices>& prices, const std::vector<Chart>& sources, const CutAtlas& cut,
+                             Journal& journal) {
+  const int count = forbidden_edges_cut(prices, sources, cut);
+  if (count == 0) return;
+  journal.warnings.push_back("cuts run along or across " + std::to_string(count) + (count == 1 ? " edge" : " edges") +
+                             " where no seam is wanted");
 }
 
 }  // namespace atlas_refine

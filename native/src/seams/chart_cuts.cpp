@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "geometry/boundary.h"
@@ -82,7 +83,9 @@ bool ChartCuts::add(const Chord& chord) {
   if (!is_known(chord.ends[0], chord.at[0]) || !is_known(chord.ends[1], chord.at[1])) return false;
   const SplitMesh mesh = mesh_;
   const std::vector<Place> places = places_;
-  if (cut_between({.ends = {vertex_at(chord.ends[0]), vertex_at(chord.ends[1])}, .at = chord.at})) return true;
+  Chord own = chord;
+  for (int& end : own.ends) end = vertex_at(end);
+  if (cut_between(own)) return true;
   mesh_ = mesh;
   places_ = places;
   on_border_.resize(mesh_.vertex_count());
@@ -92,7 +95,7 @@ bool ChartCuts::add(const Chord& chord) {
 /// Between vertices.
 bool ChartCuts::cut_between(const Chord& chord) {
   if (!on_border_[chord.ends[0]]) return false;
-  const std::vector<int> path = cut_ == Cut::Split ? straight(chord) : along_edges(chord);
+  const std::vector<int> path = cut_ == Cut::Split && !chord.on_surface ? straight(chord) : along_edges(chord);
   on_border_.resize(mesh_.vertex_count(), 0);
   if (path.size() < 2) return false;
   for (const int v : path) on_border_[v] = 1;
@@ -157,9 +160,9 @@ std::vector<int> ChartCuts::straight(const Chord& chord) {
 std::vector<int> ChartCuts::along_edges(const Chord& chord) const {
   const double width = kCorridor * chord.length(), reach = kReach * chord.length();
   const auto price = [&](const Side& s) {
-    const double own = prices_.empty() ? 1 : prices_[s.triangle][s.side], away = distance_to(chord, mesh_.uvs[mesh_.to(s)]);
-    if (mesh_.is_boundary(s) || away > reach) return kNoSeam;
-    return own * length_on_surface(s) * (1 + away * away / (width * width));
+    if (chord.on_surface) return price_on_surface(s);
+    const double away = distance_to(chord, mesh_.uvs[mesh_.to(s)]);
+    return away > reach ? kNoSeam : price_on_surface(s) * (1 + away * away / (width * width));
   };
   const auto inside = [&](int v) { return !on_border_[v]; };
   const EdgeWays ways = edge_ways(mesh_, {chord.ends[0]}, price, inside, chord.ends[1]);
@@ -221,6 +224,52 @@ Border ChartCuts::border() const {
   return out;
 }
 
+std::vector<double> ChartCuts::turns() const {
+  SplitMesh opened = mesh_;
+  opened.cut(cut_sides());
+  const auto angle_at = [&](const Side& s) {
+    const Triangle& t = opened.triangles[s.triangle];
+    const RestTriangle rest =
+        rest_of_part(chart_, opened.sources[s.triangle], {opened.supports[t[0]], opened.supports[t[1]], opened.supports[t[2]]});
+    if (!(rest.area > 0)) return 0.0;
+    const Mat2 sides = rest.inverse_edges.inverse();
+    const std::array<Vec2, 3> corners = {Vec2(0, 0), sides.col(0), sides.col(1)};
+    const Vec2 one = corners[(s.side + 1) % 3] - corners[s.side], other = corners[(s.side + 2) % 3] - corners[s.side];
+    return std::atan2(std::abs(cross(one, other)), one.dot(other));
+  };
+  std::vector<double> out;
+  for (const std::vector<int>& loop : opened.vertex_loops()) {
+    double& turn = out.emplace_back(static_cast<double>(loop.size()) * std::numbers::pi);
+    for (const int v : loop) {
+      for (const Side& s : opened.fan(v)) turn -= angle_at(s);
+    }
+  }
+  return out;
+}
+
+std::vector<Chord> ChartCuts::ways_from_holes() const {
+  std::vector<Chord> out;
+  if (cut_ == Cut::Split) return out;
+  const Border border = this->border();
+  const auto inside = [&](int v) { return !on_border_[v]; };
+  for (std::size_t l = 0; l < border.loops.size(); ++l) {
+    if (doubled_area(border.at[l]) > 0) continue;
+    const EdgeWays ways = edge_ways(
+        mesh_, border.loops[l], [&](const Side& s) { return price_on_surface(s); }, inside);
+    int end = -1;
+    for (std::size_t other = 0; other < border.loops.size(); ++other) {
+      for (const int v : border.loops[other]) {
+        if (other != l && ways.from[v] >= 0 && (end < 0 || ways.cost[v] < ways.cost[end])) end = v;
+      }
+    }
+    if (end < 0) continue;
+    int start = end;
+    while (ways.from[start] >= 0) start = ways.from[start];
+    out.push_back({.ends = {start, end}, .at = {mesh_.uvs[start], mesh_.uvs[end]}, .on_surface = true});
+  }
+  return out;
+}
+
 Support ChartCuts::support_of(int number) const {
   if (number >= 0) return mesh_.supports[number];
   const Place& place = places_[~number];
@@ -236,6 +285,12 @@ double ChartCuts::length_on_surface(const Side& side) const {
   const Triangle& triangle = chart_.triangles[source];
   const Vec3 way = weights_on(mesh_.supports[mesh_.to(side)], triangle) - weights_on(mesh_.supports[mesh_.from(side)], triangle);
   return (chart_.surface[source].inverse_edges.inverse() * Vec2(way[1], way[2])).norm();
+}
+
+/// Of a seam there; infinite where there cannot be one.
+double ChartCuts::price_on_surface(const Side& side) const {
+  if (mesh_.is_boundary(side)) return kNoSeam;
+  return (prices_.empty() ? 1 : prices_[side.triangle][side.side]) * length_on_surface(side);
 }
 
 double ChartCuts::length() const {

@@ -17,13 +17,19 @@ class ChartCuts {
   /// `piece`: a whole chart as repaired; `chart`: that of the input, whose surface it has. Both must outlive this.
   ChartCuts(const Piece& piece, const Chart& chart, const SidePrices& prices, Cut cut);
 
-  /// Cuts near the chord: straight across triangles, which are divided, or along edges of faces. False, and nothing is changed,
-  /// where no way leads there. Ends are numbers of border().
+  /// Cuts near the chord: straight across triangles, which are divided, or along edges of faces; along edges wherever they lead,
+  /// where it is on_surface. False, and nothing is changed, where no way leads there. Ends are numbers of border().
   bool add(const Chord& chord);
 
   /// The border that all cuts leave, numbered by the vertices of mesh(). Where faces may be divided, ends of cuts may also lie
   /// inside long edges of the chart's border: such places have negative numbers, and are vertices only once a cut ends there.
   Border border() const;
+  /// How far each loop of border() turns left on the surface, in radians: there as in the UVs, 2 pi around the outside and -2 pi
+  /// around a hole, where the surface can be laid flat there.
+  std::vector<double> turns() const;
+  /// With Cut::Edges, from each hole the way to another loop of border() that is shortest on the surface, however far it leads
+  /// through the UVs.
+  std::vector<Chord> ways_from_holes() const;
   /// Where on the chart a number of border() lies.
   Support support_of(int number) const;
   /// Whether cuts have made vertices on the chart's border.
@@ -58,6 +64,7 @@ class ChartCuts {
   std::vector<int> crossing(int vertex, const Vec2& target, int end, double most_aside);
   bool is_cut(int p, int q) const;
   double length_on_surface(const Side& side) const;
+  double price_on_surface(const Side& side) const;
   std::vector<Side> cut_sides() const;
 
   const Chart& chart_;

@@ -14,12 +14,14 @@ struct Border {
   std::vector<std::vector<Vec2>> at;    ///< of each loop's vertices
 };
 
-/// A segment inside a region whose ends are vertices of its border.
+/// A segment inside a region whose ends are vertices of its border; where it is `on_surface`, the shortest way between them
+/// there.
 struct Chord {
   std::array<int, 2> ends;
   std::array<Vec2, 2> at;
   double cut_off = 0;     ///< area of the smaller of the two parts that it leaves; 0 where it joins two loops
   double neck_ratio = 0;  ///< of a neck: length / root of what it cuts off; small is good
+  bool on_surface = false;
 
   double length() const { return (at[1] - at[0]).norm(); }
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "cut/scale_forecast.h"
@@ -47,6 +48,33 @@ double loss_near(const ChartState& state, const Chord& chord) {
     if (closest_on_segment(loss.at, chord.at[0], chord.at[1]).distance < reach) sum += loss.amount;
   }
   return sum;
+}
+
+/// What a hole that does not turn on the surface as in the plane costs the chart around it, as a part of what one costs that is
+/// the end of a tube; as of any cone it grows with the square of the angle that is missing.
+double part_of_hole(double turn) {
+  const double missing = (turn + 2 * std::numbers::pi) / (2 * std::numbers::pi);
+  return missing * missing;
+}
+
+/// The number of a loop that has the vertex, but for `other`; -1 where none has.
+int loop_with(const Border& border, int vertex, int other) {
+  for (int l = 0; l < static_cast<int>(border.loops.size()); ++l) {
+    const std::vector<int>& loop = border.loops[l];
+    if (l != other && std::find(loop.begin(), loop.end(), vertex) != loop.end()) return l;
+  }
+  return -1;
+}
+
+/// By a cut that joins two loops of the border: from a hole to the outside it opens that, two holes become one.
+double freed_by(const ChartState& state, const Border& border, const std::vector<double>& turns, const Chord& chord) {
+  if (chord.cut_off > 0) return 0;
+  const int a = loop_with(border, chord.ends[0], -1), b = loop_with(border, chord.ends[1], a);
+  if (a < 0 || b < 0) return 0;
+  const bool a_is_hole = doubled_area(border.at[a]) <= 0, b_is_hole = doubled_area(border.at[b]) <= 0;
+  double part = (a_is_hole ? part_of_hole(turns[a]) : 0) + (b_is_hole ? part_of_hole(turns[b]) : 0);
+  if (a_is_hole && b_is_hole) part -= part_of_hole(turns[a] + turns[b] + 2 * std::numbers::pi);
+  return std::clamp(part, 0.0, 1.0) * lost(state);
 }
 
 /// Per vertex of the chart: whether it lies on the border, or next to a cut across edges.
@@ -98,12 +126,17 @@ bool same(const CutPlace& a, const CutPlace& b) { return a.chart == b.chart && a
 }  // namespace
 
 std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int straight, int tips) {
-  std::vector<CutPlace> ranked, ways;
+  std::vector<CutPlace> out, ranked, ways;
   const std::vector<int> charts = charts_by_loss(states);
   for (const int c : charts) {
     const Border border = states[c].cuts->border();
-    for (const Chord& chord : necks(border, kLeastPart * area_within(border), kNecks))
-      ranked.push_back({c, chord, loss_near(states[c], chord)});
+    const bool has_holes = border.loops.size() > 1;
+    const std::vector<double> turns = has_holes ? states[c].cuts->turns() : std::vector<double>();
+    const auto place = [&](const Chord& chord) {
+      return CutPlace{c, chord, loss_near(states[c], chord), freed_by(states[c], border, turns, chord)};
+    };
+    for (const Chord& chord : has_holes ? states[c].cuts->ways_from_holes() : std::vector<Chord>()) out.push_back(place(chord));
+    for (const Chord& chord : necks(border, kLeastPart * area_within(border), kNecks)) ranked.push_back(place(chord));
     // Of many charts, each with little of what is lost, a few in each.
     const int most = states.size() > kMany ? std::max(kWays, tips / 2) : c == charts.front() ? tips : 0;
     for (CutPlace& way : ways_to_tips(states[c], c, border, most)) ways.push_back(std::move(way));
@@ -114,7 +147,6 @@ std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int stra
   std::stable_sort(by_loss.begin(), by_loss.end(), [](const CutPlace& a, const CutPlace& b) {
     return a.released / a.chord.length() > b.released / b.chord.length();
   });
-  std::vector<CutPlace> out;
   const auto add = [&](const CutPlace& place) {
     if (std::none_of(out.begin(), out.end(), [&](const CutPlace& other) { return same(other, place); })) out.push_back(place);
   };
