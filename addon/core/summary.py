@@ -109,6 +109,16 @@ def figures(result, face_count):
     ]
 
 
+def nothing_takes_part(result):
+    """Every chart was left as it was: the engine, which had nothing to do, calls the bound met."""
+    return result.after.chart_count == 0
+
+
+def groups_left(result):
+    """(name, why) of tiles and materials that keep their UVs."""
+    return [(group.name, group.reason) for group in result.groups if group.reason]
+
+
 def faces_after(result, face_count):
     return face_count if result.cut is None else len(result.cut.face_sources)
 
