@@ -17,6 +17,7 @@ from .core.cuts import plan_cut, seam_edges
 from .core.density import too_small
 from .core.request import prepare
 from .core.steps import to_its_end
+from .core.summary import Asked, headline, measured, missed
 from .core.words import counted, titled
 
 #: From so many times as dense as another on a chart has another density: what the engine tells of charts, too.
@@ -31,7 +32,7 @@ class Done:
     face_count: int
     is_free: bool
     reached_beyond: bool  # charts lay beside the texture
-    limits: tuple  # largest distortion and stretch that were asked for; 0: none
+    asked: Asked
     result: object = None
     measures: object = None
     hidden: int = 0  # faces that were not measured
@@ -42,10 +43,16 @@ class Done:
     prints: tuple = ()  # (object's name, UV map, fingerprint) of what it is true of
 
     @property
+    def headline(self):
+        if self.result is None:
+            return measured(self.measures, self.is_free, self.reached_beyond, self.hidden, self.asked)
+        return headline(self.result, self.is_free, self.reached_beyond, self.asked)
+
+    @property
     def told(self):
-        """What a script should know, one line each; the panel tells of densities elsewhere."""
+        """What a script should know, one line each; the panel tells of densities, and of what was missed, elsewhere."""
         sizes = [titled(name, too_small(density)) for name, density in self.densities if density.is_too_small]
-        return (*self.notes, *sizes)
+        return (*(f"missed: {text}" for text in missed(self.result, self.asked)), *self.notes, *sizes)
 
 
 class Atlas:
@@ -66,6 +73,7 @@ class Atlas:
             self.parts.append((yield from _read(context, obj, options, material_numbers, needs_room)))
         _require_names(self.parts, options)
         materials = list(material_numbers)
+        self.material_count = len(materials)
         canvases = find_canvases(context, objs, materials, options.atlases)
         self.request = yield lambda: prepare(engine.module, self.parts, options, canvases, self.metres, moves)
         if options.seams != "NONE" and options.cut == "SPLIT":
@@ -203,8 +211,16 @@ class Atlas:
         request = self.request
         is_free = not request.arguments["in_texture"]
         beyond = request.reaches_beyond and not is_free
-        fixed = (title, request.face_count, is_free, beyond, (self.options.max_distortion, self.options.max_stretch))
+        fixed = (title, request.face_count, is_free, beyond, self._asked())
         return Done(*fixed, notes=tuple(self.notes), prints=prints, **found)
+
+    def _asked(self):
+        """With a density in pixels per metre the use is no more than what charts may come to."""
+        options, boxes = self.options, "tile"
+        if options.atlases == "MATERIAL":
+            boxes = "material" if len(self.request.box_names) <= self.material_count else "texture"
+        use = options.pe_bound if options.density != "VALUE" else 0.0
+        return Asked(use, options.max_distortion, options.max_stretch, boxes)
 
     def _densities(self, result=None):
         return zip(self.request.box_names, self.request.densities(self.options, self.metres, result), strict=True)

@@ -30,7 +30,7 @@ from .core.batch_record import (
 )
 from .core.options import Options
 from .core.presets import PresetError
-from .core.summary import groups_left, headline, notes, nothing_takes_part
+from .core.summary import groups_left, notes, nothing_takes_part
 from .core.words import plain, titled
 
 #: Exit codes, in the words of docs/command_line.md. Of several the first counts.
@@ -209,7 +209,7 @@ def _parted(run, done):
 
 
 def _told(done):
-    yield f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}"
+    yield f"{done.title}: {done.headline}"
     for note in (*done.told, *notes(done.result)):
         yield titled(done.title, note)
 

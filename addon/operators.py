@@ -7,7 +7,7 @@ from bpy.props import EnumProperty, IntProperty
 from . import again, drawing, looking, presets, tasks, trade_off
 from .bridge import problems
 from .core.presets import PresetError
-from .core.summary import headline, measured, notes
+from .core.summary import notes
 from .core.words import counted, titled
 from .properties import all_properties, to_options
 from .running import Runs
@@ -29,7 +29,7 @@ class _Refines(Runs):
         for name, text in run.problems:
             self.report_problem(name, text)
         for done in all_done:
-            self.report({"INFO"}, f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}")
+            self.report({"INFO"}, f"{done.title}: {done.headline}")
         return {"FINISHED"} if all_done else {"CANCELLED"}
 
 
@@ -141,7 +141,7 @@ class UV_OT_atlas_refine_measure(Runs, bpy.types.Operator):
         for name, text in run.problems:
             self.report_problem(name, text)
         for done in found:
-            self.report({"INFO"}, f"{done.title}: {measured(done.measures, done.is_free, done.reached_beyond, done.hidden)}")
+            self.report({"INFO"}, f"{done.title}: {done.headline}")
         drawing.redraw_panels(bpy.context)
         return {"FINISHED"} if found else {"CANCELLED"}
 

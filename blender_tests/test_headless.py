@@ -238,8 +238,12 @@ class Headless(unittest.TestCase):
         self.assertEqual(code, 4)
         self.assertIn("the best found is texture use", err)
         self.assertEqual(self.names("out"), ["a.atlas_refine.json"])
-        self.assertEqual(self.run_it(source, "-o", self.folder / "out", *options, "--best-effort")[0], 0)
-        self.assertFalse(self.record(self.folder / "out/a.blend")["atlases"][0]["bound_met"])
+        code, out, _ = self.run_it(source, "-o", self.folder / "out", *options, "--best-effort")
+        self.assertEqual(code, 0)
+        (atlas,) = self.record(self.folder / "out/a.blend")["atlases"]
+        self.assertFalse(atlas["bound_met"])
+        self.assertIn("missed: texture use 99.9 %, reached ", atlas["notes"][0])
+        self.assertEqual(out.count(atlas["notes"][0]), 2)  # in the headline, too
 
     def make_of_two(self, name):
         """A .blend file with two materials: of a square sheet, which fills the texture, and of an arc, which has to bend for it."""
@@ -262,7 +266,7 @@ class Headless(unittest.TestCase):
             code, out, err = self.run_it(*asked)
             self.assertEqual((code, err.count("\n")), (4, 1), err)
             self.assertIn("a.blend: 2 objects, Of Arc: keeps its UVs: ", err)
-            self.assertIn("\n  partly\n", out)
+            self.assertIn("\n  partly\n  2 objects: 1 of 2 materials reached 80 %; Of Arc keeps its UVs (no atlas within", out)
             record = self.record(self.folder / "out/a.blend")
             self.assertEqual(record["status"], "partly")
             self.assertEqual([problem["object"] for problem in record["problems"]], ["2 objects, Of Arc"])

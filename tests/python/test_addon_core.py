@@ -9,8 +9,8 @@ import shapes
 from core.atlas import AtlasArrays, stored_uvs
 from core.manifold import faces_at_fault
 from core.options import Options, Texture
-from core.summary import figures, growth, headline, in_parts, notes, percent, trade_off_lines, what_was_done
-from core.words import lines_of, plain
+from core.summary import Asked, figures, growth, headline, in_parts, notes, percent, trade_off_lines, what_was_done
+from core.words import lines_of, named, plain, titled
 
 
 def test_options_are_the_engines_keywords():
@@ -160,15 +160,72 @@ def test_a_limit_that_is_missed_is_told():
         str(caught.value)
     )
     best = refined_arc(best_effort=True, **asked)
-    assert what_was_done(best, 0.0, 1.001) == "Charts cut, moved and bent; the stretch stays above its limit"
-    assert what_was_done(best, 1.001) == "Charts cut, moved and bent; the distortion stays above its limit"
+    assert what_was_done(best, Asked(max_stretch=1.001)) == "Charts cut, moved and bent; the stretch stays above its limit"
+    assert what_was_done(best, Asked(max_distortion=1.001)) == "Charts cut, moved and bent; the distortion stays above its limit"
     assert 0 < best.boundary_growth <= 0.12
 
 
 def test_a_bound_that_is_held_reads_so_and_one_that_is_missed_does_not():
-    assert percent(0.8, down=True) == "80 %"
-    assert percent(0.7999999, down=True) == "79 %"
-    assert percent(0.479) == "48 %"
+    asked = 0.8
+    shown = {0.8: "80 %", 0.7999999: "79.9 %", 0.796: "79.6 %", 0.479: "48 %", 0.809: "81 %", 0.0: "0 %"}
+    assert {value: percent(value, asked) for value in shown} == shown
+    assert [percent(value, 0.8044) for value in (0.8044, 0.80441, 0.8043)] == ["80.44 %", "80.44 %", "80 %"]
+    assert percent(0.618) == "62 %"
+
+
+def test_a_map_that_stays_reads_as_unchanged():
+    """Its use used to be rounded before, and cut off after: 62 % -> 61 %."""
+    result = atlas_refine.refine(*shapes.loose(), pe_bound=0.618)
+    again = result_of(result, "unchanged", before=result.after)
+    assert headline(again, asked=Asked(0.618)).startswith(f"Texture use {percent(again.after.pe_fixed_aspect)}, unchanged, dist")
+
+
+def result_of(result, intervention, **instead):
+    """The engine's, with others of its figures."""
+    held = {name: getattr(result, name) for name in ("before", "after", "added_seams", "boundary_growth", "cuts", "groups")}
+    return SimpleNamespace(**{**held, "intervention": intervention, "bound_met": True, "ended": "not_run", **instead})
+
+
+def refined_groups(groups_of_names, **options):
+    """A square sheet, and an arc, in groups of their own."""
+    arrays = shapes.join(shapes.grid(24, 3, bend=5.0), *(shapes.grid(4, 4) for _ in groups_of_names[1:]))
+    groups = np.repeat(np.arange(len(groups_of_names)), [72] + [16] * (len(groups_of_names) - 1))
+    asked = {"groups": groups, "group_names": groups_of_names, "stacks": "separate", "gap": 0.002, **options}
+    return atlas_refine.refine(*arrays, name="Crates", box_aspect=1.0, in_texture=True, gap_unit="long_side", **asked)
+
+
+def test_a_tile_that_keeps_its_uvs_is_told_beside_those_that_hold():
+    result = refined_groups(["1012", "1001", "1002"], max_distortion=1.01)
+    told = headline(result, asked=Asked(0.8, boxes="tile"))
+    assert told.startswith("2 of 3 tiles reached 80 %; 1012 keeps its UVs (no atlas within a distortion of 1.01 was found")
+    assert told.endswith("; distortion low (worst stretch 1.0), no new seams")
+    (note,) = (note for note in notes(result) if "keeps" in note)
+    assert note.startswith("1012: keeps its UVs: no atlas within")
+
+
+def test_what_best_effort_missed_is_told():
+    missing = refined_groups(["A", "B"], pe_bound=0.97, max_distortion=1.2, best_effort=True)
+    asked = Asked(0.97, 1.2, boxes="material")
+    (arc,) = (group for group in missing.groups if not group.bound_met)
+    share = percent(arc.after.pe_fixed_aspect, 0.97)
+    assert headline(missing, asked=asked).endswith(f"; missed: A: texture use 97 %, reached {share}")
+    limits = {"max_distortion": 1.001, "limit_new_seams": True, "most_new_seams": 12.0, "effort": "FAST"}
+    best = refined_arc(best_effort=True, **limits)
+    assert headline(best, asked=Asked(0.8, 1.001)).endswith(f"; missed: distortion 1.001, reached {best.after.distortion:.2f}")
+    barely = result_of(
+        best, "cut", bound_met=False, groups=[], after=SimpleNamespace(**{**best.after.as_dict(), "distortion": 1.00104})
+    )
+    assert headline(barely, asked=Asked(0.8, 1.001)).endswith("; missed: distortion 1.001, reached 1.00104")
+
+
+def test_names_are_counted_from_the_fourth_on():
+    assert [named(list(names)) for names in ("A", "AB", "ABC")] == ["A", "A and B", "A, B and C"]
+    assert named(list("ABCDE")) == "A, B, C and 2 more"
+
+
+def test_a_name_that_begins_a_message_is_told_all_the_same():
+    assert titled("t", "the bound was not reached") == "t: the bound was not reached"
+    assert titled("the", "the: no face has UVs") == "the: no face has UVs"
 
 
 @pytest.mark.parametrize(
@@ -184,6 +241,7 @@ def test_a_bound_that_is_held_reads_so_and_one_that_is_missed_does_not():
             "1 face is not convex in the UV map: to a program that divides faces otherwise than Blender they may be flipped",
         ),
         ("object 'Cube': face 7 of chart 0 is flipped", "face 7 is flipped"),
+        ("1012: keeps its UVs: object 'Cube': the bound was not reached", "1012: keeps its UVs: the bound was not reached"),
         ("the boundaries of charts 0 and 12 touch or cross near (0, 1)", "the boundaries of 2 charts touch or cross near (0, 1)"),
     ],
 )
