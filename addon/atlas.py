@@ -15,6 +15,7 @@ from .bridge.texture import find_canvases, of_another_shape
 from .core.atlas import stored_uvs
 from .core.cuts import plan_cut, seam_edges
 from .core.density import too_small
+from .core.notes import joined, notes, objects_of_charts
 from .core.request import prepare
 from .core.steps import to_its_end
 from .core.summary import Asked, headline, measured, missed
@@ -38,6 +39,7 @@ class Done:
     hidden: int = 0  # faces that were not measured
     densities: tuple = ()  # (name of the texture or tile, core.density.Density)
     notes: tuple = ()
+    mended: tuple = ()  # what the engine says besides its figures, one line each
     left: tuple = ()  # (object's name, faces) of charts that were left as they are
     new_seams: tuple = ()  # (object's name, (S, 2) vertices) of edges that were cut
     prints: tuple = ()  # (object's name, UV map, fingerprint) of what it is true of
@@ -81,8 +83,9 @@ class Atlas:
                 cuts.check_divisible(obj)
             if self.request.leaves_faces_out:
                 raise bridge.MeshError("cuts across faces need all charts of the mesh: show all, or cut along edges")
-        notes = (note for obj in objs for note in _notes(obj))
-        self.notes = [*notes, *self.request.notes, *self._notes_on_images(materials)]
+        pairs = [(obj.name, note) for obj in objs for note in _notes(obj)]
+        on_objects = joined(pairs) if len(objs) > 1 else [note for _, note in pairs]
+        self.notes = [*on_objects, *self.request.notes, *self._notes_on_images(materials)]
 
     def _notes_on_images(self, materials):
         texture = self.request.textures[0]
@@ -177,7 +180,22 @@ class Atlas:
     def _done(self, result, prints, seams=()):
         new_seams = tuple(zip((part.name for part in self.parts), seams, strict=False))
         densities = tuple(self._densities(result))
-        return self._shown(prints, self.title, densities=densities, result=result, left=self._left(result), new_seams=new_seams)
+        found = {"mended": self.mended(result), "left": self._left(result), "new_seams": new_seams}
+        return self._shown(prints, self.title, densities=densities, result=result, **found)
+
+    def title_of(self, error):
+        """With the object whose face is at fault."""
+        face = getattr(error, "face", -1)
+        if len(self.parts) == 1 or face < 0:
+            return self.title
+        return f"{self.title}, {self.parts[np.searchsorted(self.request.joined.first_faces, face, side='right') - 1].name}"
+
+    def mended(self, result):
+        """What the engine says besides its figures, one line each."""
+        if len(self.parts) == 1:
+            return tuple(notes(result))
+        names = [part.name for part in self.parts]
+        return tuple(notes(result, objects_of_charts(result.face_charts, self.request.joined.first_faces[:-1], names)))
 
     def prints(self):
         """By which the meshes are known again, as they were read."""
@@ -259,9 +277,9 @@ def _require_names(parts, options):
 def _notes(obj):
     users = objects.users_of(obj.data)
     if users > 1:
-        yield f"{obj.name}: {users} objects share the mesh, and all of them change"
+        yield f"{users} objects share the mesh, and all of them change"
     if bridge.has_uneven_scale(obj):
-        yield f"{obj.name}: the object's scale is uneven; the UVs follow the mesh without it"
+        yield "the object's scale is uneven; the UVs follow the mesh without it"
 
 
 def print_of(object_name, uv_map):

@@ -30,8 +30,8 @@ from .core.batch_record import (
 )
 from .core.options import Options
 from .core.presets import PresetError
-from .core.summary import groups_left, notes, nothing_takes_part
-from .core.words import plain, titled
+from .core.summary import groups_left, nothing_takes_part
+from .core.words import plain
 
 #: Exit codes, in the words of docs/command_line.md. Of several the first counts.
 INTERRUPTED, INTERNAL, INPUT, MISSED = 130, 1, 3, 4
@@ -203,15 +203,15 @@ def _parted(run, done):
     problems = [(code, name, text) for code, (name, text) in zip(codes, run.problems, strict=True)]
     for one in done:
         if nothing_takes_part(one.result):
-            problems.append((INPUT, one.title, f"no chart can be refined: {'; '.join(notes(one.result))}"))
+            problems.append((INPUT, one.title, f"no chart can be refined: {'; '.join(one.mended)}"))
         problems += [(MISSED, f"{one.title}, {name}", f"keeps its UVs: {reason}") for name, reason in groups_left(one.result)]
     return [one for one in done if not nothing_takes_part(one.result)], problems
 
 
 def _told(done):
     yield f"{done.title}: {done.headline}"
-    for note in (*done.told, *notes(done.result)):
-        yield titled(done.title, note)
+    for note in (*done.told, *done.mended):
+        yield f"{done.title}: {note}"
 
 
 def _run_to_the_end(options, point):

@@ -15,7 +15,6 @@ from .core.summary import (
     measures_held,
     missed,
     new_seams,
-    notes,
     uses_of_groups,
     what_was_done,
 )
@@ -165,7 +164,7 @@ class _Result:
         if done.result.cut is not None:
             faces = faces_after(done.result, done.face_count)
             _tell(layout, context, f"Faces {done.face_count} -> {faces}, charts {before.chart_count} -> {after.chart_count}")
-        told = [*done.notes, *notes(done.result)]
+        told = [*done.notes, *done.mended]
         for note in told[:MOST_NOTES]:
             _tell(layout, context, note, icon="DOT")
         if len(told) > MOST_NOTES:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A result in words, and its figures with the paper's symbols for those who want them."""
 
-from collections import Counter
 from dataclasses import dataclass
 
 from .words import counted, named, plain
@@ -197,19 +196,6 @@ def groups_left(result):
 
 def faces_after(result, face_count):
     return face_count if result.cut is None else len(result.cut.face_sources)
-
-
-def notes(result):
-    """What an artist should know besides the figures, one line each."""
-    charts, faces = Counter(), Counter()
-    for repair in result.repairs:
-        charts[repair.what] += len(repair.charts)
-        faces[repair.what] += len(repair.faces)
-    for what, count in charts.items():
-        of_faces = f" ({counted(faces[what], 'face')})" if faces[what] else ""
-        said = what if count == 1 else what.replace("itself", "themselves").replace("its shape", "their shapes")
-        yield f"{counted(count, 'chart')}: {said}{of_faces}"
-    yield from (plain(text) for text in (*result.fallbacks, *result.warnings))
 
 
 def _figure(value, decimals):

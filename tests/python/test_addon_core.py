@@ -8,8 +8,9 @@ import pytest
 import shapes
 from core.atlas import AtlasArrays, stored_uvs
 from core.manifold import faces_at_fault
+from core.notes import joined, notes, objects_of_charts
 from core.options import Options, Texture
-from core.summary import Asked, figures, growth, headline, in_parts, notes, percent, trade_off_lines, what_was_done
+from core.summary import Asked, figures, growth, headline, in_parts, percent, trade_off_lines, what_was_done
 from core.words import lines_of, named, plain, titled
 
 
@@ -264,7 +265,8 @@ def test_what_was_mended_in_the_same_way_is_told_once():
     repairs = [
         SimpleNamespace(what=what, charts=[k], faces=[1, 2]) for k, what in enumerate(("overlapped itself", "turned", "turned"))
     ]
-    result = SimpleNamespace(repairs=[*repairs, repairs[0]], fallbacks=[], warnings=[])
+    again = SimpleNamespace(what="overlapped itself", charts=[3], faces=[5, 6])
+    result = SimpleNamespace(repairs=[*repairs, again], fallbacks=[], warnings=[])
     assert list(notes(result)) == ["2 charts: overlapped themselves (4 faces)", "2 charts: turned (4 faces)"]
 
 
@@ -276,3 +278,37 @@ def test_faces_at_edges_of_three_and_of_opposite_winding():
     assert faces_at_fault(atlas).tolist() == [0, 1, 2]
     turned = AtlasArrays(positions, offsets[:3], np.array([0, 1, 2, 0, 1, 3]), np.zeros((6, 2), dtype=np.float32))
     assert faces_at_fault(turned).tolist() == [0, 1]
+
+
+def test_notes_name_the_objects():
+    charts = [SimpleNamespace(fate=fate, reason=reason) for fate, reason in [("refined", "")] * 2 + [("left", "has no area")] * 8]
+    said = [
+        "chart 1: looks odd",
+        "charts 0, 2 and 3: look odd",
+        "8 charts: each has no area; left as before",
+        "9 charts: unknown",
+        "slow",
+    ]
+    result = SimpleNamespace(repairs=[], fallbacks=[], warnings=said, charts=charts)
+    objects = objects_of_charts(np.arange(10).repeat(2), np.array([0, 4, 6]), ["Crate", "Barrel", "Tub"])
+    assert objects == ("Crate", "Crate", "Barrel", *["Tub"] * 7)
+    assert list(notes(result, objects)) == [
+        "1 chart: looks odd (Crate)",
+        "3 charts: look odd (Crate: 1, Barrel: 1 and Tub: 1)",
+        "8 charts: each has no area; left as before (Tub: 7 and Barrel: 1)",
+        "9 charts: unknown",
+        "slow",
+    ]
+    assert next(notes(result)) == "1 chart: looks odd"
+
+
+def test_repairs_that_differ_in_a_count_are_one_note():
+    folded = [([0, 1], "2 edges"), ([1, 2, 3], "6 edges"), ([4, 5], "1 edge")]
+    repairs = [SimpleNamespace(what=f"folded onto each other along {edges}, parted", charts=of, faces=[]) for of, edges in folded]
+    result = SimpleNamespace(repairs=repairs, fallbacks=[], warnings=[], charts=[])
+    assert list(notes(result)) == ["6 charts: folded onto each other along 9 edges, parted"]
+
+
+def test_equal_notes_are_one_with_the_names():
+    pairs = [(f"Cube {k}", "uneven") for k in range(40)] + [("Cube 0", "shared"), ("Cube 0", "uneven")]
+    assert joined(pairs) == ["Cube 0, Cube 1, Cube 2 and 37 more: uneven", "Cube 0: shared"]
