@@ -190,6 +190,12 @@ class Atlas:
             return self.title
         return f"{self.title}, {self.parts[np.searchsorted(self.request.joined.first_faces, face, side='right') - 1].name}"
 
+    def words_of(self, message):
+        """The engine's message, which knows parts of a texture, in pixels."""
+        size = min(map(self.options.pixels, self.request.textures))
+        told = f"the margin of {self.options.gap_px:g} px is more than a tenth of the texture of {size} px"
+        return message.replace("the gap must lie in [0, 0.1] of the box", told)
+
     def mended(self, result):
         """What the engine says besides its figures, one line each."""
         if len(self.parts) == 1:

@@ -154,7 +154,7 @@ class Run:
             try:
                 out.append((yield from atlas.write(atlas.job.result(), is_alone=not self._beside_window)))
             except FAILURES as error:
-                self.problems.append((atlas.title_of(error), why(error)))
+                self.problems.append((atlas.title_of(error), atlas.words_of(why(error))))
                 self.errors.append(error)
         if out:
             show(out)
@@ -163,6 +163,9 @@ class Run:
 
 def read_atlases(context, options, problems, moves=True):
     """In steps: the atlases that the options ask for; what cannot be used goes to `problems`. `moves`: as of prepare()."""
+    if options.refusal:
+        problems.append(options.refusal)
+        return []
     usable, without_map = usable_objects(context, options, problems)
     if not usable:
         problems += without_map

@@ -56,7 +56,7 @@ class Search(tasks.Run):
         try:
             result = atlas.job.result()
         except tasks.FAILURES as error:
-            self.problems.append((atlas.title_of(error), tasks.why(error)))
+            self.problems.append((atlas.title_of(error), atlas.words_of(tasks.why(error))))
             return
         if not result.cuts:
             self.problems.append((atlas.title, "the map holds what is asked as it is, and there is nothing to choose"))

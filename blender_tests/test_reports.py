@@ -1,10 +1,11 @@
 """What the operators report: of which object, and equal notes in one line."""
 
+import sys
 import unittest
 
 import bpy
 import shapes
-from support import add_mesh, fresh_scene, get_uvs, messages, set_uvs
+from support import MODULE, add_mesh, fresh_scene, get_uvs, messages, set_uvs
 
 
 def add_sheets(names):
@@ -46,3 +47,23 @@ class Reports(unittest.TestCase):
         add_mesh(name="no")
         told = messages(bpy.ops.uv.atlas_refine, max_distortion=1.0001)
         self.assertIn("Error: no: no atlas within a distortion of 1.0001", told)
+
+    def test_pixels_per_metre_of_0_are_refused(self):
+        before = get_uvs(add_mesh().data.uv_layers.active).tobytes()
+        settings = bpy.context.scene.atlas_refine
+        for value in (0.0, -5.0):
+            settings.density, settings.texel_density = "VALUE", value
+            told = messages(bpy.ops.uv.atlas_refine_measure)
+            told += messages(bpy.ops.uv.atlas_refine, density="VALUE", texel_density=value)
+            self.assertEqual(
+                told.count(f"Error: Pixels per Metre: it has to be 0.001 at least, not {value:g}"), 4
+            )  # each is raised, too
+        self.assertEqual(get_uvs(bpy.context.object.data.uv_layers.active).tobytes(), before)
+        kind = sys.modules[f"{MODULE}.presets"].option_kinds()["texel_density"]
+        with self.assertRaisesRegex(ValueError, "texel_density is from 0.001"):
+            kind.checked(0.0)
+
+    def test_a_margin_too_large_for_the_texture_names_both(self):
+        add_mesh()
+        told = messages(bpy.ops.uv.atlas_refine, texture_size=0)
+        self.assertIn("Error: Loose: the margin of 4 px is more than a tenth of the texture of 16 px", told)

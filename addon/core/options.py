@@ -16,6 +16,10 @@ class Texture:
     tiles: tuple = ()  # numbers of those that a tiled one has
 
 
+#: Least values of options that Blender must not raise in silence: what a script says is to be refused.
+LEAST = {"texel_density": 0.001}
+
+
 @dataclass(frozen=True)
 class Options:
     pe_bound: float = 0.8
@@ -57,6 +61,14 @@ class Options:
             value = getattr(self, field.name)
             if isinstance(value, float):
                 object.__setattr__(self, field.name, round(value, 6))
+
+    @property
+    def refusal(self):
+        """(what, why) no run can be of these; None where one can."""
+        least = LEAST["texel_density"]
+        if self.density != "VALUE" or self.texel_density >= least:
+            return None
+        return "Pixels per Metre", f"it has to be {least:g} at least, not {self.texel_density:g}"
 
     def engine_arguments(self, texture=None):
         """Keywords of atlas_refine.start(), for UVs that are stored as float32; `texture`: of the atlas, where there is one."""

@@ -13,7 +13,6 @@ _CHART = re.compile(r"(?:\bface (\d+) of )?\bchart \d+\b")
 _WORDS = {
     "packing efficiency": "texture use",
     "E_d": "distortion",
-    "the gap must lie in [0, 0.1] of the box": "the margin is more than a tenth of the texture",
     " charts at the bound ": " charts at a texture use of ",
     "charts of several groups": "charts of several materials",
 }
