@@ -7,6 +7,8 @@ from .words import counted, named, plain
 
 #: E_d up to which distortion is called so.
 LOW, MODERATE = 1.05, 1.25
+#: Digits that tell lines of the trade-off apart, besides those that each has.
+_MOST_MORE = 3
 
 
 @dataclass(frozen=True)
@@ -124,13 +126,24 @@ def new_seams(result):
 
 def trade_off_lines(points):
     """(new seams, distortion, cuts) of each outcome that is worth a choice."""
-    for point in points:
-        yield growth(point.boundary_growth) if point.cuts else "none", f"{point.distortion:.3f}", counted(point.cuts, "cut")
+    seams = _told_apart(growth, [point.boundary_growth for point in points])
+    distortions = _told_apart(lambda value, more: f"{value:.{3 + more}f}", [point.distortion for point in points])
+    for point, new, value in zip(points, seams, distortions, strict=True):
+        yield new if point.cuts else "none", value, counted(point.cuts, "cut")
 
 
-def growth(fraction):
-    """The length of new seams as a part of the borders that there were."""
-    return f"+{100 * fraction:.0f} %" if fraction >= 0.01 else f"+{100 * fraction:.2g} %"
+def _told_apart(written, values):
+    """`written`: (value, more digits) as a text; with as many more as no two different values read the same."""
+    for more in range(_MOST_MORE + 1):
+        texts = [written(value, more) for value in values]
+        if len(set(texts)) == len(set(values)):
+            break
+    return texts
+
+
+def growth(fraction, more=0):
+    """The length of new seams as a part of the borders that there were; `more`: digits."""
+    return f"+{100 * fraction:.{more}f} %" if fraction >= 0.01 else f"+{100 * fraction:.{2 + more}g} %"
 
 
 def percent(fraction, asked=0.0):

@@ -153,6 +153,15 @@ def test_the_lines_of_a_trade_off():
     assert lines[1] == (growth(points[1].boundary_growth), f"{points[1].distortion:.3f}", "1 cut")
 
 
+def test_no_two_lines_of_a_trade_off_read_the_same():
+    found = [(0, 0.0, 1.0071), (1, 0.0121, 1.0062), (2, 0.0190, 1.00523), (3, 0.0209, 1.00515), (5, 0.0307, 1.00512)]
+    points = [SimpleNamespace(cuts=cuts, boundary_growth=growth, distortion=distortion) for cuts, growth, distortion in found]
+    seams, distortions, _ = zip(*trade_off_lines(points), strict=True)
+    assert seams == ("none", "+1.2 %", "+1.9 %", "+2.1 %", "+3.1 %")
+    assert distortions == ("1.00710", "1.00620", "1.00523", "1.00515", "1.00512")
+    assert [line[:2] for line in trade_off_lines(points[:2])] == [("none", "1.007"), ("+1 %", "1.006")]
+
+
 def test_a_limit_that_is_missed_is_told():
     asked = {"max_distortion": 1.001, "limit_new_seams": True, "most_new_seams": 12.0, "effort": "FAST"}
     with pytest.raises(atlas_refine.AtlasRefineError) as caught:
