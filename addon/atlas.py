@@ -11,10 +11,11 @@ from . import engine
 from .bridge import cuts
 from .bridge import mesh as bridge
 from .bridge import parts as objects
+from .bridge.named import why_not_painted
 from .bridge.texture import find_canvases, of_another_shape
 from .core.atlas import stored_uvs
 from .core.cuts import plan_cut, seam_edges
-from .core.density import too_small
+from .core.density import notes_on_unequal, too_small
 from .core.notes import joined, notes, objects_of_charts
 from .core.request import prepare
 from .core.steps import to_its_end
@@ -73,7 +74,7 @@ class Atlas:
         for obj in objs:
             needs_room = moves and options.write_to == "COPY"
             self.parts.append((yield from _read(context, obj, options, material_numbers, needs_room)))
-        _require_names(self.parts, options)
+        _require_names(self.parts, objs, options)
         materials = list(material_numbers)
         self.material_count = len(materials)
         canvases = find_canvases(context, objs, materials, options.atlases)
@@ -86,6 +87,9 @@ class Atlas:
         pairs = [(obj.name, note) for obj in objs for note in _notes(obj)]
         on_objects = joined(pairs) if len(objs) > 1 else [note for _, note in pairs]
         self.notes = [*on_objects, *self.request.notes, *self._notes_on_images(materials)]
+        self.notes += options.notes_on_margins(self.request.textures)
+        if options.density == "KEEP" and len(self.request.box_names) == 1:
+            self.notes += yield lambda: list(notes_on_unequal(self.parts))
 
     def _notes_on_images(self, materials):
         texture = self.request.textures[0]
@@ -272,12 +276,19 @@ def _read(context, obj, options, material_numbers, needs_room):
         raise bridge.MeshError(f"{obj.name}: {error}") from error
 
 
-def _require_names(parts, options):
+def _require_names(parts, objs, options):
     for option in ("keep_shape", "importance", "no_seam", "prefer_seam"):
         name = getattr(options, option)
-        if name and all(getattr(part, option) is None for part in parts):
-            what = "edge attribute" if option.endswith("seam") else "vertex group and no face attribute"
-            raise bridge.MeshError(f'there is no {what} "{name}"')
+        if not name or any(getattr(part, option) is not None for part in parts):
+            continue
+        is_of_edges = option.endswith("seam")
+        others = filter(None, (why_not_painted(obj, name, "EDGE" if is_of_edges else "FACE") for obj in objs))
+        if other := next(others, ""):
+            needed = "an edge attribute" if is_of_edges else "a vertex group or a face attribute"
+            raise bridge.MeshError(f"{other}: {needed} of numbers is needed")
+        raise bridge.MeshError(
+            f'there is no {"edge attribute" if is_of_edges else "vertex group and no face attribute"} "{name}"'
+        )
 
 
 def _notes(obj):

@@ -122,6 +122,8 @@ def _refine(item, options, arguments, at):
     lines = []
     print(f"[{at}/{len(arguments.items)}] {item.source}", flush=True)
     try:
+        if item.source.is_dir():
+            raise FileError(f"it is a folder: name its files, as '{item.source.name}/*.blend'")
         if not item.source.is_file():
             raise FileError("there is no such file")
         record["input_sha256"] = sha256(*files.files_of(item.source))

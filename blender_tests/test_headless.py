@@ -224,6 +224,13 @@ class Headless(unittest.TestCase):
         self.assertEqual([name for name in self.names("out") if name.endswith(".blend")], [good.name])
         self.assertEqual(self.record(self.folder / "out/bad.blend")["status"], "failed")
 
+    def test_a_folder_is_called_so(self):
+        (self.folder / "scenes").mkdir()
+        code, _, err = self.run_it(self.folder / "scenes", "-o", self.folder / "out")
+        self.assertEqual(
+            (code, err), (3, f"atlas_refine: {self.folder}/scenes: it is a folder: name its files, as 'scenes/*.blend'\n")
+        )
+
     def test_a_missing_file_leaves_nothing(self):
         self.assertEqual(self.run_it(self.folder / "no" / "gone.blend", "--in-place")[0], 3)
         self.assertEqual(self.names(), [])

@@ -4,6 +4,7 @@ import sys
 import unittest
 
 import bpy
+import numpy as np
 import shapes
 from support import MODULE, add_mesh, fresh_scene, get_uvs, messages, set_uvs
 
@@ -14,6 +15,13 @@ def add_sheets(names):
     for obj in objs:
         obj.select_set(True)
     return objs
+
+
+def material_with(image):
+    material = bpy.data.materials.new("Skin")
+    material.use_nodes = True
+    material.node_tree.nodes.new("ShaderNodeTexImage").image = image
+    return material
 
 
 class Reports(unittest.TestCase):
@@ -67,3 +75,45 @@ class Reports(unittest.TestCase):
         add_mesh()
         told = messages(bpy.ops.uv.atlas_refine, texture_size=0)
         self.assertIn("Error: Loose: the margin of 4 px is more than a tenth of the texture of 16 px", told)
+
+    def test_an_attribute_of_another_kind_is_called_so(self):
+        obj = add_mesh()
+        obj.data.attributes.new("Points", "FLOAT", "POINT")
+        obj.data.attributes.new("Colours", "FLOAT_COLOR", "FACE")
+        obj.vertex_groups.new(name="Group")
+        for option, name, words in (
+            ("importance", "Points", '"Points" is a point attribute: a vertex group or a face attribute of numbers is needed'),
+            ("keep_shape", "Colours", 'the attribute "Colours" does not hold one number for each face: a vertex group'),
+            ("no_seam", "Points", '"Points" is a point attribute: an edge attribute of numbers is needed'),
+            ("prefer_seam", "Group", '"Group" is a vertex group: an edge attribute of numbers is needed'),
+        ):
+            self.assertIn(f"Error: Loose: {words}", messages(bpy.ops.uv.atlas_refine, **{option: name}))
+
+    def test_objects_that_were_unwrapped_by_themselves(self):
+        note = "Small has 5 times the texel density of Large, and keeps it: Density: Equal evens them out"
+        for scale, options, is_told in (
+            (5, {}, True),
+            (3, {}, False),
+            (5, {"density": "EQUAL"}, False),
+            (5, {"atlases": "OBJECT"}, False),
+        ):
+            fresh_scene()
+            small, large = add_sheets(["Small", "Large"])
+            large.scale = (scale,) * 3
+            for layer in (small.data.uv_layers.active, large.data.uv_layers.active):
+                set_uvs(layer, get_uvs(layer) / np.ptp(get_uvs(layer), axis=0))
+            told = messages(bpy.ops.uv.atlas_refine, stacks="SEPARATE", **options)
+            self.assertEqual(note in told, is_told, told)
+
+    def test_a_margin_that_is_not_of_the_images_pixels(self):
+        obj = add_mesh()
+        obj.data.materials.append(material_with(bpy.data.images.new("Wide", 2048, 1024)))
+        note = "in Wide, 2048 x 1024, the margin of 8 px of 2048 is 8 px across and 4 px up. Aspect: Texture takes its shape"
+        for aspect, size, is_told in (
+            ("SQUARE", 2048, True),
+            ("FREE", 2048, True),
+            ("SQUARE", 1024, False),
+            ("TEXTURE", 2048, False),
+        ):
+            told = messages(bpy.ops.uv.atlas_refine, pe_bound=0.7, aspect=aspect, gap_px=8, texture_size=size)
+            self.assertEqual(note in told, is_told, told)

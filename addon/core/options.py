@@ -130,6 +130,17 @@ class Options:
         ratio = texture.width / texture.height if self.takes_image(texture) else 1.0
         return {"box_aspect": min(max(ratio, 0.01), 100.0), "in_texture": True}
 
+    def notes_on_margins(self, textures):
+        """Where the box does not take an image's shape, the margin is not of its pixels."""
+        if self.gap != "PIXELS" or self.aspect == "TEXTURE":
+            return
+        for texture in dict.fromkeys(filter(None, textures)):
+            size = texture.width, texture.height
+            across, up = (self.gap_px * pixels / self.texture_size for pixels in size)
+            if min(across, up) < self.gap_px and texture.width != texture.height:
+                margin = f"the margin of {self.gap_px:g} px of {self.texture_size} is {across:.3g} px across and {up:.3g} px up"
+                yield f"packed for square pixels: in {texture.name}, {size[0]} x {size[1]}, {margin}. Aspect: Texture takes its shape"
+
     def pixels(self, texture=None):
         """Of the texture's longer side."""
         return max(self.texture_pixels(texture))
