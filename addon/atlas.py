@@ -258,7 +258,7 @@ def _still_there(part):
     """The object, in steps, where it still holds what was read."""
     obj = bpy.data.objects.get(part.name) or objects.object_of_mesh(part.mesh_name)
     if obj is None or obj.type != "MESH":
-        raise bridge.MeshError(f"{part.name} is gone; nothing was written")
+        raise bridge.MeshError(f"{part.name}: it is gone; nothing was written")
     part.name = obj.name  # it may have been renamed
     if part.uv_map in obj.data.uv_layers:
         atlas = yield from bridge.read_in_steps(obj, part.uv_map)
