@@ -58,8 +58,8 @@ class Search(tasks.Run):
         except tasks.FAILURES as error:
             self.problems.append((atlas.title_of(error), atlas.words_of(tasks.why(error))))
             return
-        if not result.cuts:
-            self.problems.append((atlas.title, "the map holds what is asked as it is, and there is nothing to choose"))
+        if not result.cuts or len(result.cuts.trade_off) == 1:
+            self.problems.append((atlas.title, "no cut spares distortion, and there is nothing to choose"))
             return
         self.told = atlas.mended(result)
         prints = yield atlas.prints
