@@ -11,12 +11,15 @@ from . import engine
 from .bridge import cuts
 from .bridge import mesh as bridge
 from .bridge import parts as objects
+from .bridge.named import why_not_painted
 from .bridge.texture import find_canvases, of_another_shape
 from .core.atlas import stored_uvs
 from .core.cuts import plan_cut, seam_edges
-from .core.density import too_small
+from .core.density import notes_on_unequal, too_small
+from .core.notes import joined, notes, objects_of_charts
 from .core.request import prepare
 from .core.steps import to_its_end
+from .core.summary import Asked, headline, measured, missed
 from .core.words import counted, titled
 
 #: From so many times as dense as another on a chart has another density: what the engine tells of charts, too.
@@ -31,21 +34,28 @@ class Done:
     face_count: int
     is_free: bool
     reached_beyond: bool  # charts lay beside the texture
-    limits: tuple  # largest distortion and stretch that were asked for; 0: none
+    asked: Asked
     result: object = None
     measures: object = None
     hidden: int = 0  # faces that were not measured
     densities: tuple = ()  # (name of the texture or tile, core.density.Density)
     notes: tuple = ()
+    mended: tuple = ()  # what the engine says besides its figures, one line each
     left: tuple = ()  # (object's name, faces) of charts that were left as they are
     new_seams: tuple = ()  # (object's name, (S, 2) vertices) of edges that were cut
     prints: tuple = ()  # (object's name, UV map, fingerprint) of what it is true of
 
     @property
+    def headline(self):
+        if self.result is None:
+            return measured(self.measures, self.is_free, self.reached_beyond, self.hidden, self.asked)
+        return headline(self.result, self.is_free, self.reached_beyond, self.asked)
+
+    @property
     def told(self):
-        """What a script should know, one line each; the panel tells of densities elsewhere."""
+        """What a script should know, one line each; the panel tells of densities, and of what was missed, elsewhere."""
         sizes = [titled(name, too_small(density)) for name, density in self.densities if density.is_too_small]
-        return (*self.notes, *sizes)
+        return (*(f"missed: {text}" for text in missed(self.result, self.asked)), *self.notes, *sizes)
 
 
 class Atlas:
@@ -64,8 +74,9 @@ class Atlas:
         for obj in objs:
             needs_room = moves and options.write_to == "COPY"
             self.parts.append((yield from _read(context, obj, options, material_numbers, needs_room)))
-        _require_names(self.parts, options)
+        _require_names(self.parts, objs, options)
         materials = list(material_numbers)
+        self.material_count = len(materials)
         canvases = find_canvases(context, objs, materials, options.atlases)
         self.request = yield lambda: prepare(engine.module, self.parts, options, canvases, self.metres, moves)
         if options.seams != "NONE" and options.cut == "SPLIT":
@@ -73,8 +84,12 @@ class Atlas:
                 cuts.check_divisible(obj)
             if self.request.leaves_faces_out:
                 raise bridge.MeshError("cuts across faces need all charts of the mesh: show all, or cut along edges")
-        notes = (note for obj in objs for note in _notes(obj))
-        self.notes = [*notes, *self.request.notes, *self._notes_on_images(materials)]
+        pairs = [(obj.name, note) for obj in objs for note in _notes(obj)]
+        on_objects = joined(pairs) if len(objs) > 1 else [note for _, note in pairs]
+        self.notes = [*on_objects, *self.request.notes, *self._notes_on_images(materials)]
+        self.notes += options.notes_on_margins(self.request.textures)
+        if options.density == "KEEP" and len(self.request.box_names) == 1:
+            self.notes += yield lambda: list(notes_on_unequal(self.parts))
 
     def _notes_on_images(self, materials):
         texture = self.request.textures[0]
@@ -169,7 +184,28 @@ class Atlas:
     def _done(self, result, prints, seams=()):
         new_seams = tuple(zip((part.name for part in self.parts), seams, strict=False))
         densities = tuple(self._densities(result))
-        return self._shown(prints, self.title, densities=densities, result=result, left=self._left(result), new_seams=new_seams)
+        found = {"mended": self.mended(result), "left": self._left(result), "new_seams": new_seams}
+        return self._shown(prints, self.title, densities=densities, result=result, **found)
+
+    def title_of(self, error):
+        """With the object whose face is at fault."""
+        face = getattr(error, "face", -1)
+        if len(self.parts) == 1 or face < 0:
+            return self.title
+        return f"{self.title}, {self.parts[np.searchsorted(self.request.joined.first_faces, face, side='right') - 1].name}"
+
+    def words_of(self, message):
+        """The engine's message, which knows parts of a texture, in pixels."""
+        size = min(map(self.options.pixels, self.request.textures))
+        told = f"the margin of {self.options.gap_px:g} px is more than a tenth of the texture of {size} px"
+        return message.replace("the gap must lie in [0, 0.1] of the box", told)
+
+    def mended(self, result):
+        """What the engine says besides its figures, one line each."""
+        if len(self.parts) == 1:
+            return tuple(notes(result))
+        names = [part.name for part in self.parts]
+        return tuple(notes(result, objects_of_charts(result.face_charts, self.request.joined.first_faces[:-1], names)))
 
     def prints(self):
         """By which the meshes are known again, as they were read."""
@@ -203,8 +239,16 @@ class Atlas:
         request = self.request
         is_free = not request.arguments["in_texture"]
         beyond = request.reaches_beyond and not is_free
-        fixed = (title, request.face_count, is_free, beyond, (self.options.max_distortion, self.options.max_stretch))
+        fixed = (title, request.face_count, is_free, beyond, self._asked())
         return Done(*fixed, notes=tuple(self.notes), prints=prints, **found)
+
+    def _asked(self):
+        """With a density in pixels per metre the use is no more than what charts may come to."""
+        options, boxes = self.options, "tile"
+        if options.atlases == "MATERIAL":
+            boxes = "material" if len(self.request.box_names) <= self.material_count else "texture"
+        use = options.pe_bound if options.density != "VALUE" else 0.0
+        return Asked(use, options.max_distortion, options.max_stretch, boxes)
 
     def _densities(self, result=None):
         return zip(self.request.box_names, self.request.densities(self.options, self.metres, result), strict=True)
@@ -214,7 +258,7 @@ def _still_there(part):
     """The object, in steps, where it still holds what was read."""
     obj = bpy.data.objects.get(part.name) or objects.object_of_mesh(part.mesh_name)
     if obj is None or obj.type != "MESH":
-        raise bridge.MeshError(f"{part.name} is gone; nothing was written")
+        raise bridge.MeshError(f"{part.name}: it is gone; nothing was written")
     part.name = obj.name  # it may have been renamed
     if part.uv_map in obj.data.uv_layers:
         atlas = yield from bridge.read_in_steps(obj, part.uv_map)
@@ -232,20 +276,27 @@ def _read(context, obj, options, material_numbers, needs_room):
         raise bridge.MeshError(f"{obj.name}: {error}") from error
 
 
-def _require_names(parts, options):
+def _require_names(parts, objs, options):
     for option in ("keep_shape", "importance", "no_seam", "prefer_seam"):
         name = getattr(options, option)
-        if name and all(getattr(part, option) is None for part in parts):
-            what = "edge attribute" if option.endswith("seam") else "vertex group and no face attribute"
-            raise bridge.MeshError(f'there is no {what} "{name}"')
+        if not name or any(getattr(part, option) is not None for part in parts):
+            continue
+        is_of_edges = option.endswith("seam")
+        others = filter(None, (why_not_painted(obj, name, "EDGE" if is_of_edges else "FACE") for obj in objs))
+        if other := next(others, ""):
+            needed = "an edge attribute" if is_of_edges else "a vertex group or a face attribute"
+            raise bridge.MeshError(f"{other}: {needed} of numbers is needed")
+        raise bridge.MeshError(
+            f'there is no {"edge attribute" if is_of_edges else "vertex group and no face attribute"} "{name}"'
+        )
 
 
 def _notes(obj):
     users = objects.users_of(obj.data)
     if users > 1:
-        yield f"{obj.name}: {users} objects share the mesh, and all of them change"
+        yield f"{users} objects share the mesh, and all of them change"
     if bridge.has_uneven_scale(obj):
-        yield f"{obj.name}: the object's scale is uneven; the UVs follow the mesh without it"
+        yield "the object's scale is uneven; the UVs follow the mesh without it"
 
 
 def print_of(object_name, uv_map):

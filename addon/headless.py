@@ -30,8 +30,8 @@ from .core.batch_record import (
 )
 from .core.options import Options
 from .core.presets import PresetError
-from .core.summary import headline, notes
-from .core.words import plain, titled
+from .core.summary import groups_left, nothing_takes_part
+from .core.words import plain
 
 #: Exit codes, in the words of docs/command_line.md. Of several the first counts.
 INTERRUPTED, INTERNAL, INPUT, MISSED = 130, 1, 3, 4
@@ -122,6 +122,8 @@ def _refine(item, options, arguments, at):
     lines = []
     print(f"[{at}/{len(arguments.items)}] {item.source}", flush=True)
     try:
+        if item.source.is_dir():
+            raise FileError(f"it is a folder: name its files, as '{item.source.name}/*.blend'")
         if not item.source.is_file():
             raise FileError("there is no such file")
         record["input_sha256"] = sha256(*files.files_of(item.source))
@@ -183,24 +185,35 @@ def _refine_file(item, options, arguments, record):
     with bpy.context.temp_override(active_object=objects[0], selected_objects=objects):
         run = _run_to_the_end(options, arguments.point)
         done = run.finish()
+    done, problems = _parted(run, done)
     record["atlases"] = [atlas_record(one.title, one.result, one.told) for one in done]
-    record["problems"] = [{"object": name, "message": plain(text)} for name, text in run.problems]
+    record["problems"] = [{"object": name, "message": plain(text)} for _, name, text in problems]
     record["left_out"] = left_out
-    record["status"] = DONE if not run.problems else PARTLY if done else FAILED
+    record["status"] = DONE if not problems else PARTLY if done else FAILED
     for problem in record["problems"]:
         _complain(f"{item.source}: {problem['object']}: {problem['message']}")
     if done:
         _save(item, any(one.result.intervention != "unchanged" for one in done))
         record["output_sha256"] = sha256(item.output)
+    return max((0, *(code for code, _, _ in problems)), key=_weight), [line for one in done for line in _told(one)]
+
+
+def _parted(run, done):
+    """(the atlases of which something was refined, or was there already; (exit code, name, what is wrong) of all that was not)."""
     # What could not be read has no error of the engine's.
-    codes = [_code(error) for error in run.errors] + [INPUT] * (len(run.problems) - len(run.errors))
-    return max((*codes, 0), key=_weight), [line for one in done for line in _told(one)]
+    codes = [INPUT] * (len(run.problems) - len(run.errors)) + [_code(error) for error in run.errors]
+    problems = [(code, name, text) for code, (name, text) in zip(codes, run.problems, strict=True)]
+    for one in done:
+        if nothing_takes_part(one.result):
+            problems.append((INPUT, one.title, f"no chart can be refined: {'; '.join(one.mended)}"))
+        problems += [(MISSED, f"{one.title}, {name}", f"keeps its UVs: {reason}") for name, reason in groups_left(one.result)]
+    return [one for one in done if not nothing_takes_part(one.result)], problems
 
 
 def _told(done):
-    yield f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}"
-    for note in (*done.told, *notes(done.result)):
-        yield titled(done.title, note)
+    yield f"{done.title}: {done.headline}"
+    for note in (*done.told, *done.mended):
+        yield f"{done.title}: {note}"
 
 
 def _run_to_the_end(options, point):

@@ -6,9 +6,9 @@ from bpy.props import EnumProperty, IntProperty
 
 from . import again, drawing, looking, presets, tasks, trade_off
 from .bridge import problems
+from .core.notes import joined
 from .core.presets import PresetError
-from .core.summary import headline, measured, notes
-from .core.words import counted, titled
+from .core.words import counted
 from .properties import all_properties, to_options
 from .running import Runs
 
@@ -21,15 +21,13 @@ class _Refines(Runs):
             self.report({"INFO"}, self.stopped)
             return {"CANCELLED"}
         all_done = run.finish()
-        for done in all_done:
-            for note in (*done.told, *notes(done.result)):
-                self.report({"WARNING"}, titled(done.title, note))
+        for line in joined((done.title, note) for done in all_done for note in (*done.told, *done.mended)):
+            self.report({"WARNING"}, line)
         if waiting := len(run.atlases) - len(run.begun):
             self.report({"WARNING"}, f"Stopped before the turn of {counted(waiting, 'more object')}, left as before")
-        for name, text in run.problems:
-            self.report_problem(name, text)
+        self.report_problems(run.problems)
         for done in all_done:
-            self.report({"INFO"}, f"{done.title}: {headline(done.result, done.is_free, done.reached_beyond)}")
+            self.report({"INFO"}, f"{done.title}: {done.headline}")
         return {"FINISHED"} if all_done else {"CANCELLED"}
 
 
@@ -138,10 +136,9 @@ class UV_OT_atlas_refine_measure(Runs, bpy.types.Operator):
         if run.cancelled:
             return {"CANCELLED"}
         found = run.finish()
-        for name, text in run.problems:
-            self.report_problem(name, text)
+        self.report_problems(run.problems)
         for done in found:
-            self.report({"INFO"}, f"{done.title}: {measured(done.measures, done.is_free, done.reached_beyond, done.hidden)}")
+            self.report({"INFO"}, f"{done.title}: {done.headline}")
         drawing.redraw_panels(bpy.context)
         return {"FINISHED"} if found else {"CANCELLED"}
 
@@ -162,10 +159,9 @@ class UV_OT_atlas_refine_trade_off(Runs, bpy.types.Operator):
             self.report({"INFO"}, "Stopped; there is no trade-off to show")
             return {"CANCELLED"}
         found = run.finish()
-        for name, text in run.problems:
-            self.report_problem(name, text)
+        self.report_problems(run.problems)
         for note in run.told:
-            self.report({"WARNING"}, titled(run.atlases[0].title, note))
+            self.report({"WARNING"}, f"{run.atlases[0].title}: {note}")
         for seams, distortion, cuts in found:
             self.report({"INFO"}, f"{run.atlases[0].title}: new seams {seams} ({cuts}), distortion {distortion}")
         drawing.redraw_panels(bpy.context)
@@ -196,8 +192,7 @@ class UV_OT_atlas_refine_select_problems(Runs, bpy.types.Operator):
     def _finish(self, run):
         if run.cancelled:
             return {"CANCELLED"}
-        for name, text in run.problems:
-            self.report_problem(name, text)
+        self.report_problems(run.problems)
         for name, text in run.finish():
             self.report({"INFO"}, f"{name}: {text}")
         return {"FINISHED"}

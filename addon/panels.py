@@ -6,7 +6,18 @@ import bpy
 from . import drawing, operators, overlay_settings, presets, tasks, trade_off
 from .bridge import versions
 from .core.density import density_lines
-from .core.summary import distortion, faces_after, figures, in_parts, measured, new_seams, notes, percent, use, what_was_done
+from .core.summary import (
+    change_of_use,
+    distortion,
+    faces_after,
+    figures,
+    in_parts,
+    measures_held,
+    missed,
+    new_seams,
+    uses_of_groups,
+    what_was_done,
+)
 from .core.words import ICON_PX, counted, lines_of, phase
 from .properties import copy_options, to_options
 
@@ -134,7 +145,7 @@ class _Result:
             box = self.layout.box().column(align=True)
             if done.result is None:
                 _tell(box, context, f"{done.title}: measured", icon="INFO")
-                _tell(box, context, measured(done.measures, done.is_free, done.reached_beyond, done.hidden))
+                _tell(box, context, done.headline)
                 _draw_density(box, context, done.densities)
             else:
                 self._draw_result(box, context, done)
@@ -142,20 +153,18 @@ class _Result:
     def _draw_result(self, layout, context, done):
         before, after = done.result.before, done.result.after
         icon = "CHECKMARK" if done.result.bound_met else "ERROR"
-        _tell(layout, context, f"{done.title}: {what_was_done(done.result, *done.limits)}", icon)
-        now = percent(after.pe_fixed_aspect, down=True)
-        lines = [f"{use(before, done.is_free, done.reached_beyond)} -> {now}"]
-        for group in done.result.groups:
-            held = percent(group.after.pe_fixed_aspect, down=True)
-            lines.append(f"{group.name or done.title}: {percent(group.before.pe_fixed_aspect)} -> {held}")
-        lines += [line.capitalize() for line in (*in_parts(distortion(after)), *new_seams(done.result))]
+        _tell(layout, context, f"{done.title}: {what_was_done(done.result, done.asked)}", icon)
+        lines = [] if done.result.groups else [change_of_use(done.result, done.is_free, done.reached_beyond, done.asked)]
+        lines += [f"{name or done.title}: {share}" for name, share in uses_of_groups(done.result, done.asked)]
+        lines += [f"Missed: {text}" for text in missed(done.result, done.asked)]
+        lines += [line.capitalize() for line in (*in_parts(distortion(measures_held(done.result))), *new_seams(done.result))]
         for line in lines:
             _tell(layout, context, line)
         _draw_density(layout, context, done.densities)
         if done.result.cut is not None:
             faces = faces_after(done.result, done.face_count)
             _tell(layout, context, f"Faces {done.face_count} -> {faces}, charts {before.chart_count} -> {after.chart_count}")
-        told = [*done.notes, *notes(done.result)]
+        told = [*done.notes, *done.mended]
         for note in told[:MOST_NOTES]:
             _tell(layout, context, note, icon="DOT")
         if len(told) > MOST_NOTES:

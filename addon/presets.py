@@ -14,6 +14,7 @@ from bpy.props import StringProperty
 
 from . import preferences
 from .core.option_kinds import OptionKind
+from .core.options import LEAST
 from .core.presets import BUILT_IN, OWN, STUDIO, PresetError, find_presets, preset_named, preset_text, preset_values
 from .properties import OPTION_NAMES
 
@@ -30,6 +31,8 @@ def option_kinds():
 def _kind(option):
     choices = tuple(item.identifier for item in option.enum_items) if option.type == "ENUM" else ()
     limits = {"low": option.hard_min, "high": option.hard_max} if option.type in {"INT", "FLOAT"} else {}
+    if option.identifier in LEAST:
+        limits["low"] = LEAST[option.identifier]
     return OptionKind(option.identifier, option.default, option.description, choices, **limits)
 
 

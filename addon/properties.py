@@ -216,7 +216,6 @@ def _chart_properties():
             name="Pixels per Metre",
             description="Pixels of the texture for each metre of the surface, at the scale that the object has in the scene",
             default=Options.texel_density,
-            min=0.001,
             soft_min=1.0,
             soft_max=4096.0,
             precision=1,

@@ -5,7 +5,8 @@ import bpy
 
 from . import again, drawing, tasks
 from .bridge import parts as objects
-from .core.words import phase, plain, titled
+from .core.notes import joined
+from .core.words import phase, plain
 
 POLL_SECONDS = 0.1
 #: While meshes are read and written, of which each turn does a part.
@@ -33,8 +34,9 @@ class OnObjects:
             return False
         return True
 
-    def report_problem(self, name, text):
-        self.report({"ERROR"}, titled(name, plain(text)))
+    def report_problems(self, problems):
+        for line in joined((name, plain(text).removeprefix(f"{name}: ")) for name, text in problems):
+            self.report({"ERROR"}, line)
 
 
 class Runs(OnObjects):
@@ -106,8 +108,7 @@ class Runs(OnObjects):
     def _has_work(self, run):
         """Tells the reasons where it has none."""
         if not run.atlases:
-            for name, text in run.problems or [("Atlas Refine", "there is nothing to refine")]:
-                self.report_problem(name, text)
+            self.report_problems(run.problems or [("Atlas Refine", "there is nothing to refine")])
         return bool(run.atlases)
 
     def _set_timer(self, context):

@@ -11,9 +11,9 @@ from .atlas import Atlas, print_of
 from .bridge import mesh as bridge
 from .bridge import parts as objects
 from .changes import Watch, no_longer, once_drawn
+from .core.notes import joined
 from .core.request import NothingToDoError
 from .core.steps import Steps
-from .core.words import titled
 
 #: What a run may fail with for reasons that lie in the objects or the options.
 FAILURES = (engine.AtlasRefineError, bridge.MeshError, NothingToDoError, ValueError, ReferenceError)
@@ -154,7 +154,7 @@ class Run:
             try:
                 out.append((yield from atlas.write(atlas.job.result(), is_alone=not self._beside_window)))
             except FAILURES as error:
-                self.problems.append((atlas.title, why(error)))
+                self.problems.append((atlas.title_of(error), atlas.words_of(why(error))))
                 self.errors.append(error)
         if out:
             show(out)
@@ -163,6 +163,9 @@ class Run:
 
 def read_atlases(context, options, problems, moves=True):
     """In steps: the atlases that the options ask for; what cannot be used goes to `problems`. `moves`: as of prepare()."""
+    if options.refusal:
+        problems.append(options.refusal)
+        return []
     usable, without_map = usable_objects(context, options, problems)
     if not usable:
         problems += without_map
@@ -183,7 +186,7 @@ def read_atlases(context, options, problems, moves=True):
     if not out and usable:
         problems += without_map
     if out:
-        out[0].notes += [f"left out: {titled(name, reason)}" for name, reason in without_map]
+        out[0].notes += [f"left out: {note}" for note in joined(without_map)]
     return out
 
 

@@ -8,7 +8,7 @@ import bpy
 from . import drawing, tasks
 from .changes import Watch, no_longer, once_drawn
 from .core.options import Options
-from .core.summary import notes, trade_off_lines
+from .core.summary import trade_off_lines
 
 #: The Choice that the panel shows, None where there is none.
 shown = None
@@ -56,12 +56,12 @@ class Search(tasks.Run):
         try:
             result = atlas.job.result()
         except tasks.FAILURES as error:
-            self.problems.append((atlas.title, tasks.why(error)))
+            self.problems.append((atlas.title_of(error), atlas.words_of(tasks.why(error))))
             return
-        if not result.cuts:
-            self.problems.append((atlas.title, "the map holds what is asked as it is, and there is nothing to choose"))
+        if not result.cuts or len(result.cuts.trade_off) == 1:
+            self.problems.append((atlas.title, "no cut spares distortion, and there is nothing to choose"))
             return
-        self.told = tuple(notes(result))
+        self.told = atlas.mended(result)
         prints = yield atlas.prints
         self._written = tuple(trade_off_lines(result.cuts.trade_off))
         shown = Choice(atlas.options, self._written, prints)

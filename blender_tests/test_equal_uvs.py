@@ -171,6 +171,12 @@ class EqualUvs(unittest.TestCase):
     def test_mirrored_halves_are_parted_on_request(self):
         obj = half_then_mirrored()
         with only_uvs_change(obj):
-            told = messages(bpy.ops.uv.atlas_refine, stacks="SEPARATE")
+            told = messages(bpy.ops.uv.atlas_refine, stacks="SEPARATE", mark_seams=False)
         self.assertIn("parted", told)
         self.assertGreaterEqual(texture_share(obj), 0.8)
+
+    def test_edges_that_halves_are_parted_along_become_seams(self):
+        obj = half_then_mirrored()
+        before = {edge.key for edge in obj.data.edges if edge.use_seam}
+        bpy.ops.uv.atlas_refine(stacks="SEPARATE")
+        self.assertGreater({edge.key for edge in obj.data.edges if edge.use_seam}, before)

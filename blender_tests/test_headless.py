@@ -16,7 +16,8 @@ import unittest
 import addon_utils
 import bpy
 import numpy as np
-from support import MODULE, add_mesh, changes, fresh_scene, packing_efficiency, snapshot
+import shapes
+from support import MODULE, add_mesh, changes, fresh_scene, packing_efficiency, set_uvs, snapshot
 
 #: Blender 3.4's importer asks for a name that its NumPy on Debian 12 no longer has.
 GLTF_IS_BROKEN = bpy.app.version < (3, 6, 0) and not hasattr(np, "bool")
@@ -223,6 +224,13 @@ class Headless(unittest.TestCase):
         self.assertEqual([name for name in self.names("out") if name.endswith(".blend")], [good.name])
         self.assertEqual(self.record(self.folder / "out/bad.blend")["status"], "failed")
 
+    def test_a_folder_is_called_so(self):
+        (self.folder / "scenes").mkdir()
+        code, _, err = self.run_it(self.folder / "scenes", "-o", self.folder / "out")
+        self.assertEqual(
+            (code, err), (3, f"atlas_refine: {self.folder}/scenes: it is a folder: name its files, as 'scenes/*.blend'\n")
+        )
+
     def test_a_missing_file_leaves_nothing(self):
         self.assertEqual(self.run_it(self.folder / "no" / "gone.blend", "--in-place")[0], 3)
         self.assertEqual(self.names(), [])
@@ -237,8 +245,54 @@ class Headless(unittest.TestCase):
         self.assertEqual(code, 4)
         self.assertIn("the best found is texture use", err)
         self.assertEqual(self.names("out"), ["a.atlas_refine.json"])
-        self.assertEqual(self.run_it(source, "-o", self.folder / "out", *options, "--best-effort")[0], 0)
-        self.assertFalse(self.record(self.folder / "out/a.blend")["atlases"][0]["bound_met"])
+        code, out, _ = self.run_it(source, "-o", self.folder / "out", *options, "--best-effort")
+        self.assertEqual(code, 0)
+        (atlas,) = self.record(self.folder / "out/a.blend")["atlases"]
+        self.assertFalse(atlas["bound_met"])
+        self.assertIn("missed: texture use 99.9 %, reached ", atlas["notes"][0])
+        self.assertEqual(out.count(atlas["notes"][0]), 2)  # in the headline, too
+
+    def make_of_two(self, name):
+        """A .blend file with two materials: of a square sheet, which fills the texture, and of an arc, which has to bend for it."""
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        arc = add_mesh(shapes.join(shapes.grid(24, 3, bend=5.0)), name="Arc")
+        sheet = add_mesh(shapes.join(shapes.grid(4, 4)), name="Sheet")
+        for obj in (arc, sheet):
+            obj.data.materials.append(bpy.data.materials.new(f"Of {obj.name}"))
+        return self.saved(name)
+
+    def saved(self, name):
+        path = self.folder / name
+        bpy.ops.wm.save_as_mainfile(filepath=str(path))
+        return path
+
+    def test_a_material_that_misses_the_bound(self):
+        source = self.make_of_two("a.blend")
+        asked = [source, "-o", self.folder / "out", "--atlases", "material", "--max-distortion", "1.01"]
+        for _ in range(2):  # a second run does it again
+            code, out, err = self.run_it(*asked)
+            self.assertEqual((code, err.count("\n")), (4, 1), err)
+            self.assertIn("a.blend: 2 objects, Of Arc: keeps its UVs: ", err)
+            self.assertIn("\n  partly\n  2 objects: 1 of 2 materials reached 80 %; Of Arc keeps its UVs (no atlas within", out)
+            record = self.record(self.folder / "out/a.blend")
+            self.assertEqual(record["status"], "partly")
+            self.assertEqual([problem["object"] for problem in record["problems"]], ["2 objects, Of Arc"])
+            self.assertEqual([group["bound_met"] for group in record["atlases"][0]["groups"]], [False, True])
+        self.assertEqual(self.names("out"), ["a.atlas_refine.json", "a.blend"])
+
+    def test_a_file_in_which_no_chart_can_be_refined(self):
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        obj = add_mesh()
+        set_uvs(obj.data.uv_layers.active, np.zeros((len(obj.data.loops), 2)))
+        source = self.saved("a.blend")
+        for _ in range(2):
+            code, out, err = self.run_it(source, "-o", self.folder / "out")
+            self.assertEqual((code, err.count("\n")), (3, 1), err)
+            self.assertIn("Loose: no chart can be refined: 3 charts: each has no area in the UV map", err)
+            self.assertIn("\n  failed\n", out)
+        record = self.record(self.folder / "out/a.blend")
+        self.assertEqual((record["status"], record["atlases"]), ("failed", []))
+        self.assertEqual(self.names("out"), ["a.atlas_refine.json"])
 
     def test_presets_and_what_is_given_as_well(self):
         source = self.make("a.blend")

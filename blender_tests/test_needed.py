@@ -145,7 +145,7 @@ class TradeOff(unittest.TestCase):
 
     def test_it_tells_of_what_is_mended_in_every_line(self):
         add_suzanne(0, "cube projection")
-        self.assertIn("folded onto each other along 1 edge, parted", messages(bpy.ops.uv.atlas_refine_trade_off))
+        self.assertIn("folded onto each other along 4 edges, parted", messages(bpy.ops.uv.atlas_refine_trade_off))
 
     def test_a_line_is_what_the_map_becomes_and_undo_allows_another(self):
         add_c()

@@ -179,6 +179,17 @@ class Operator(unittest.TestCase):
         self.assertEqual(changes(before, snapshot(obj)), ["uvs of UVMap"])
         self.assertGreaterEqual(texture_share(obj), 0.8)
 
+    def test_an_object_that_is_removed_meanwhile(self):
+        obj = add_mesh()
+        tasks, core = (sys.modules[f"{MODULE}.{name}"] for name in ("tasks", "core.options"))
+        run = tasks.Run(bpy.context, core.Options(), beside_window=True)
+        while not run.is_solving:
+            run.step()
+        bpy.data.objects.remove(obj)
+        while not run.step():
+            time.sleep(0.01)
+        self.assertEqual((run.finish(), run.problems), ([], [("Loose", "Loose: it is gone; nothing was written")]))
+
     def test_a_bound_out_of_reach(self):
         options = {"pe_bound": 0.999, "gap": "PIXELS", "gap_px": 50, "texture_size": 1024}
         self.assert_refused(add_mesh(), ["the margin to the border of the texture leaves 0.81"], **options)

@@ -6,6 +6,7 @@ import numpy as np
 from .mesh import integers
 
 _NUMBERS = {"BOOLEAN", "INT", "INT8", "FLOAT"}
+_DOMAINS = {"POINT": "a point", "EDGE": "an edge", "FACE": "a face", "CORNER": "a face corner"}
 #: A vertex of weight 1 counts as much more than one without.
 MOST_IMPORTANT = 10.0
 
@@ -19,6 +20,17 @@ def names_of_edges(obj, domain="EDGE"):
     """Edge attributes that Painted reads; not those that are Blender's own and have no place in its lists."""
     shown = (one for one in obj.data.attributes if not one.name.startswith("."))
     return [one.name for one in shown if one.domain == domain and one.data_type in _NUMBERS]
+
+
+def why_not_painted(obj, name, domain):
+    """Why what the object has of that name is not what Painted reads, vertex groups and numbers of faces, or numbers of edges; empty
+    where it has nothing."""
+    attribute = obj.data.attributes.get(name)
+    if attribute is not None and attribute.domain != domain:
+        return f'"{name}" is {_DOMAINS.get(attribute.domain, "another")} attribute'
+    if attribute is not None and attribute.data_type not in _NUMBERS:
+        return f'the attribute "{name}" does not hold one number for each {domain.lower()}'
+    return f'"{name}" is a vertex group' if name in obj.vertex_groups and domain == "EDGE" else ""
 
 
 class Painted:

@@ -8,6 +8,10 @@ import numpy as np
 
 #: Of a texture, in pixels.
 LEAST_SIZE = 16
+#: So many times as dense as another object one is worth a note.
+UNEQUAL_PARTS = 4
+#: Of the texture: what unwrapping for all of it leaves free at most, and how far it may reach beyond it.
+_FILLS, _BESIDE = 0.75, 0.01
 
 
 @dataclass(frozen=True)
@@ -53,6 +57,24 @@ def surface_areas(positions, face_offsets, corner_vertices):
     """(F,) of the faces, as flat as they can be; 0 where positions are no numbers."""
     x, y, z = _twice_areas(positions, face_offsets, corner_vertices)
     return np.sqrt(x**2 + y**2 + z**2) / 2
+
+
+def notes_on_unequal(parts):
+    """Of objects each of which was unwrapped for a texture of its own, where they are to share one and keep their densities."""
+    found = [density for density in map(_density_of_unwrapped, parts) if density > 0]
+    if len(found) < max(2, len(parts)) or max(found) <= UNEQUAL_PARTS * min(found):
+        return
+    least, most = (parts[found.index(pick(found))].name for pick in (min, max))
+    yield f"{most} has {max(found) / min(found):.3g} times the texel density of {least}, and keeps it: Density: Equal evens them out"
+
+
+def _density_of_unwrapped(part):
+    """UV units for a unit of the world; 0 where its UVs do not fill the texture from side to side, or reach beyond it."""
+    atlas, uvs = part.atlas, part.atlas.corner_uvs[np.isfinite(part.atlas.corner_uvs).all(axis=1)]
+    if len(uvs) == 0 or uvs.min() < -_BESIDE or uvs.max() > 1 + _BESIDE or np.ptp(uvs, axis=0).max() < _FILLS:
+        return 0.0
+    area = surface_areas(atlas.positions, atlas.face_offsets, atlas.corner_vertices)[part.taken].sum() * part.scale**2
+    return math.sqrt(uv_areas(atlas.face_offsets, atlas.corner_uvs)[part.taken].sum() / area) if area > 0 else 0.0
 
 
 def uv_areas(face_offsets, corner_uvs):

@@ -16,6 +16,10 @@ class Texture:
     tiles: tuple = ()  # numbers of those that a tiled one has
 
 
+#: Least values of options that Blender must not raise in silence: what a script says is to be refused.
+LEAST = {"texel_density": 0.001}
+
+
 @dataclass(frozen=True)
 class Options:
     pe_bound: float = 0.8
@@ -57,6 +61,14 @@ class Options:
             value = getattr(self, field.name)
             if isinstance(value, float):
                 object.__setattr__(self, field.name, round(value, 6))
+
+    @property
+    def refusal(self):
+        """(what, why) no run can be of these; None where one can."""
+        least = LEAST["texel_density"]
+        if self.density != "VALUE" or self.texel_density >= least:
+            return None
+        return "Pixels per Metre", f"it has to be {least:g} at least, not {self.texel_density:g}"
 
     def engine_arguments(self, texture=None):
         """Keywords of atlas_refine.start(), for UVs that are stored as float32; `texture`: of the atlas, where there is one."""
@@ -117,6 +129,17 @@ class Options:
             return {"box_aspect": 0.0, "in_texture": False}
         ratio = texture.width / texture.height if self.takes_image(texture) else 1.0
         return {"box_aspect": min(max(ratio, 0.01), 100.0), "in_texture": True}
+
+    def notes_on_margins(self, textures):
+        """Where the box does not take an image's shape, the margin is not of its pixels."""
+        if self.gap != "PIXELS" or self.aspect == "TEXTURE":
+            return
+        for texture in dict.fromkeys(filter(None, textures)):
+            size = texture.width, texture.height
+            across, up = (self.gap_px * pixels / self.texture_size for pixels in size)
+            if min(across, up) < self.gap_px and texture.width != texture.height:
+                margin = f"the margin of {self.gap_px:g} px of {self.texture_size} is {across:.3g} px across and {up:.3g} px up"
+                yield f"packed for square pixels: in {texture.name}, {size[0]} x {size[1]}, {margin}. Aspect: Texture takes its shape"
 
     def pixels(self, texture=None):
         """Of the texture's longer side."""

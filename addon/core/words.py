@@ -13,19 +13,20 @@ _CHART = re.compile(r"(?:\bface (\d+) of )?\bchart \d+\b")
 _WORDS = {
     "packing efficiency": "texture use",
     "E_d": "distortion",
-    "the gap must lie in [0, 0.1] of the box": "the margin is more than a tenth of the texture",
     " charts at the bound ": " charts at a texture use of ",
     "charts of several groups": "charts of several materials",
 }
 _GAP = re.compile(r"\bgap\b")
 _NOT_CONVEX = re.compile(r"(not convex in the UV map), valid only where divided as here; \d+ of them would be flipped as a fan")
 _GROWTH = re.compile(r"\ba boundary growth of ([0-9.e+-]*[0-9])")
-_OBJECT = re.compile(r"^object '.*?': ")
+_OBJECT = re.compile(r"(^|: )object '.*?': ")
+#: Of many names so many are told.
+_MOST_NAMES = 3
 
 
 def plain(message):
     """ "charts 3, 5: mirrored" -> "2 charts: mirrored"; "chart 7 has no area" -> "1 chart has no area"."""
-    message = _OBJECT.sub("", message)
+    message = _OBJECT.sub(r"\1", message)
     message = _CHARTS.sub(lambda found: f"{found.group(1).count(',') + 1 + bool(found.group(2))} charts", message)
     message = _GROWTH.sub(lambda found: f"new seams of {100 * float(found.group(1)):.3g} % of the charts' borders", message)
     for said, word in _WORDS.items():
@@ -36,12 +37,20 @@ def plain(message):
 
 
 def titled(title, text):
-    """The text with what it is about before it, unless it begins with that."""
-    return text if text.startswith(title) else f"{title}: {text}"
+    """The text with what it is about before it, unless it begins so."""
+    return text if text.startswith(f"{title}: ") else f"{title}: {text}"
 
 
 def counted(count, one):
     return f"{count} {one if count == 1 else one + 's'}"
+
+
+def named(names):
+    """ "A, B and C"; of many the first, "A, B, C and 37 more"."""
+    shown, others = list(names[:_MOST_NAMES]), len(names) - _MOST_NAMES
+    last = [f"{others} more"] if others > 0 else shown[1:][-1:]
+    first = shown if others > 0 else shown[: len(shown) - len(last)]
+    return " and ".join(filter(None, (", ".join(first), *last)))
 
 
 def phase(stage):

@@ -8,9 +8,10 @@ import pytest
 import shapes
 from core.atlas import AtlasArrays, stored_uvs
 from core.manifold import faces_at_fault
+from core.notes import joined, notes, objects_of_charts
 from core.options import Options, Texture
-from core.summary import figures, growth, headline, in_parts, notes, percent, trade_off_lines, what_was_done
-from core.words import lines_of, plain
+from core.summary import Asked, figures, growth, headline, in_parts, percent, trade_off_lines, what_was_done
+from core.words import lines_of, named, plain, titled
 
 
 def test_options_are_the_engines_keywords():
@@ -152,6 +153,15 @@ def test_the_lines_of_a_trade_off():
     assert lines[1] == (growth(points[1].boundary_growth), f"{points[1].distortion:.3f}", "1 cut")
 
 
+def test_no_two_lines_of_a_trade_off_read_the_same():
+    found = [(0, 0.0, 1.0071), (1, 0.0121, 1.0062), (2, 0.0190, 1.00523), (3, 0.0209, 1.00515), (5, 0.0307, 1.00512)]
+    points = [SimpleNamespace(cuts=cuts, boundary_growth=growth, distortion=distortion) for cuts, growth, distortion in found]
+    seams, distortions, _ = zip(*trade_off_lines(points), strict=True)
+    assert seams == ("none", "+1.2 %", "+1.9 %", "+2.1 %", "+3.1 %")
+    assert distortions == ("1.00710", "1.00620", "1.00523", "1.00515", "1.00512")
+    assert [line[:2] for line in trade_off_lines(points[:2])] == [("none", "1.007"), ("+1 %", "1.006")]
+
+
 def test_a_limit_that_is_missed_is_told():
     asked = {"max_distortion": 1.001, "limit_new_seams": True, "most_new_seams": 12.0, "effort": "FAST"}
     with pytest.raises(atlas_refine.AtlasRefineError) as caught:
@@ -160,15 +170,72 @@ def test_a_limit_that_is_missed_is_told():
         str(caught.value)
     )
     best = refined_arc(best_effort=True, **asked)
-    assert what_was_done(best, 0.0, 1.001) == "Charts cut, moved and bent; the stretch stays above its limit"
-    assert what_was_done(best, 1.001) == "Charts cut, moved and bent; the distortion stays above its limit"
+    assert what_was_done(best, Asked(max_stretch=1.001)) == "Charts cut, moved and bent; the stretch stays above its limit"
+    assert what_was_done(best, Asked(max_distortion=1.001)) == "Charts cut, moved and bent; the distortion stays above its limit"
     assert 0 < best.boundary_growth <= 0.12
 
 
 def test_a_bound_that_is_held_reads_so_and_one_that_is_missed_does_not():
-    assert percent(0.8, down=True) == "80 %"
-    assert percent(0.7999999, down=True) == "79 %"
-    assert percent(0.479) == "48 %"
+    asked = 0.8
+    shown = {0.8: "80 %", 0.7999999: "79.9 %", 0.796: "79.6 %", 0.479: "48 %", 0.809: "81 %", 0.0: "0 %"}
+    assert {value: percent(value, asked) for value in shown} == shown
+    assert [percent(value, 0.8044) for value in (0.8044, 0.80441, 0.8043)] == ["80.44 %", "80.44 %", "80 %"]
+    assert percent(0.618) == "62 %"
+
+
+def test_a_map_that_stays_reads_as_unchanged():
+    """Its use used to be rounded before, and cut off after: 62 % -> 61 %."""
+    result = atlas_refine.refine(*shapes.loose(), pe_bound=0.618)
+    again = result_of(result, "unchanged", before=result.after)
+    assert headline(again, asked=Asked(0.618)).startswith(f"Texture use {percent(again.after.pe_fixed_aspect)}, unchanged, dist")
+
+
+def result_of(result, intervention, **instead):
+    """The engine's, with others of its figures."""
+    held = {name: getattr(result, name) for name in ("before", "after", "added_seams", "boundary_growth", "cuts", "groups")}
+    return SimpleNamespace(**{**held, "intervention": intervention, "bound_met": True, "ended": "not_run", **instead})
+
+
+def refined_groups(groups_of_names, **options):
+    """A square sheet, and an arc, in groups of their own."""
+    arrays = shapes.join(shapes.grid(24, 3, bend=5.0), *(shapes.grid(4, 4) for _ in groups_of_names[1:]))
+    groups = np.repeat(np.arange(len(groups_of_names)), [72] + [16] * (len(groups_of_names) - 1))
+    asked = {"groups": groups, "group_names": groups_of_names, "stacks": "separate", "gap": 0.002, **options}
+    return atlas_refine.refine(*arrays, name="Crates", box_aspect=1.0, in_texture=True, gap_unit="long_side", **asked)
+
+
+def test_a_tile_that_keeps_its_uvs_is_told_beside_those_that_hold():
+    result = refined_groups(["1012", "1001", "1002"], max_distortion=1.01)
+    told = headline(result, asked=Asked(0.8, boxes="tile"))
+    assert told.startswith("2 of 3 tiles reached 80 %; 1012 keeps its UVs (no atlas within a distortion of 1.01 was found")
+    assert told.endswith("; distortion low (worst stretch 1.0), no new seams")
+    (note,) = (note for note in notes(result) if "keeps" in note)
+    assert note.startswith("1012: keeps its UVs: no atlas within")
+
+
+def test_what_best_effort_missed_is_told():
+    missing = refined_groups(["A", "B"], pe_bound=0.97, max_distortion=1.2, best_effort=True)
+    asked = Asked(0.97, 1.2, boxes="material")
+    (arc,) = (group for group in missing.groups if not group.bound_met)
+    share = percent(arc.after.pe_fixed_aspect, 0.97)
+    assert headline(missing, asked=asked).endswith(f"; missed: A: texture use 97 %, reached {share}")
+    limits = {"max_distortion": 1.001, "limit_new_seams": True, "most_new_seams": 12.0, "effort": "FAST"}
+    best = refined_arc(best_effort=True, **limits)
+    assert headline(best, asked=Asked(0.8, 1.001)).endswith(f"; missed: distortion 1.001, reached {best.after.distortion:.2f}")
+    barely = result_of(
+        best, "cut", bound_met=False, groups=[], after=SimpleNamespace(**{**best.after.as_dict(), "distortion": 1.00104})
+    )
+    assert headline(barely, asked=Asked(0.8, 1.001)).endswith("; missed: distortion 1.001, reached 1.00104")
+
+
+def test_names_are_counted_from_the_fourth_on():
+    assert [named(list(names)) for names in ("A", "AB", "ABC")] == ["A", "A and B", "A, B and C"]
+    assert named(list("ABCDE")) == "A, B, C and 2 more"
+
+
+def test_a_name_that_begins_a_message_is_told_all_the_same():
+    assert titled("t", "the bound was not reached") == "t: the bound was not reached"
+    assert titled("the", "the: no face has UVs") == "the: no face has UVs"
 
 
 @pytest.mark.parametrize(
@@ -177,13 +244,13 @@ def test_a_bound_that_is_held_reads_so_and_one_that_is_missed_does_not():
         ("chart 7 has no area in the UV map", "1 chart has no area in the UV map"),
         ("charts 3, 5: mirrored, turned over", "2 charts: mirrored, turned over"),
         ("12 charts: mirrored", "12 charts: mirrored"),
-        ("the gap must lie in [0, 0.1] of the box", "the margin is more than a tenth of the texture"),
         ("charts of several groups were parted along 2 edges", "charts of several materials were parted along 2 edges"),
         (
             "1 face is not convex in the UV map, valid only where divided as here; 0 of them would be flipped as a fan",
             "1 face is not convex in the UV map: to a program that divides faces otherwise than Blender they may be flipped",
         ),
         ("object 'Cube': face 7 of chart 0 is flipped", "face 7 is flipped"),
+        ("1012: keeps its UVs: object 'Cube': the bound was not reached", "1012: keeps its UVs: the bound was not reached"),
         ("the boundaries of charts 0 and 12 touch or cross near (0, 1)", "the boundaries of 2 charts touch or cross near (0, 1)"),
     ],
 )
@@ -206,7 +273,8 @@ def test_what_was_mended_in_the_same_way_is_told_once():
     repairs = [
         SimpleNamespace(what=what, charts=[k], faces=[1, 2]) for k, what in enumerate(("overlapped itself", "turned", "turned"))
     ]
-    result = SimpleNamespace(repairs=[*repairs, repairs[0]], fallbacks=[], warnings=[])
+    again = SimpleNamespace(what="overlapped itself", charts=[3], faces=[5, 6])
+    result = SimpleNamespace(repairs=[*repairs, again], fallbacks=[], warnings=[])
     assert list(notes(result)) == ["2 charts: overlapped themselves (4 faces)", "2 charts: turned (4 faces)"]
 
 
@@ -218,3 +286,37 @@ def test_faces_at_edges_of_three_and_of_opposite_winding():
     assert faces_at_fault(atlas).tolist() == [0, 1, 2]
     turned = AtlasArrays(positions, offsets[:3], np.array([0, 1, 2, 0, 1, 3]), np.zeros((6, 2), dtype=np.float32))
     assert faces_at_fault(turned).tolist() == [0, 1]
+
+
+def test_notes_name_the_objects():
+    charts = [SimpleNamespace(fate=fate, reason=reason) for fate, reason in [("refined", "")] * 2 + [("left", "has no area")] * 8]
+    said = [
+        "chart 1: looks odd",
+        "charts 0, 2 and 3: look odd",
+        "8 charts: each has no area; left as before",
+        "9 charts: unknown",
+        "slow",
+    ]
+    result = SimpleNamespace(repairs=[], fallbacks=[], warnings=said, charts=charts)
+    objects = objects_of_charts(np.arange(10).repeat(2), np.array([0, 4, 6]), ["Crate", "Barrel", "Tub"])
+    assert objects == ("Crate", "Crate", "Barrel", *["Tub"] * 7)
+    assert list(notes(result, objects)) == [
+        "1 chart: looks odd (Crate)",
+        "3 charts: look odd (Crate: 1, Barrel: 1 and Tub: 1)",
+        "8 charts: each has no area; left as before (Tub: 7 and Barrel: 1)",
+        "9 charts: unknown",
+        "slow",
+    ]
+    assert next(notes(result)) == "1 chart: looks odd"
+
+
+def test_repairs_that_differ_in_a_count_are_one_note():
+    folded = [([0, 1], "2 edges"), ([1, 2, 3], "6 edges"), ([4, 5], "1 edge")]
+    repairs = [SimpleNamespace(what=f"folded onto each other along {edges}, parted", charts=of, faces=[]) for of, edges in folded]
+    result = SimpleNamespace(repairs=repairs, fallbacks=[], warnings=[], charts=[])
+    assert list(notes(result)) == ["6 charts: folded onto each other along 9 edges, parted"]
+
+
+def test_equal_notes_are_one_with_the_names():
+    pairs = [(f"Cube {k}", "uneven") for k in range(40)] + [("Cube 0", "shared"), ("Cube 0", "uneven")]
+    assert joined(pairs) == ["Cube 0, Cube 1, Cube 2 and 37 more: uneven", "Cube 0: shared"]
