@@ -28,6 +28,7 @@ LEVELS = [
     ["reduce_pieces"],
     ["rectangles", "whole"],
     ["needed"],
+    ["take_road"],
     ["one_atlas"],
     ["refine", "group_by_tile", "inspect"],
 ]

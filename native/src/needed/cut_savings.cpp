@@ -18,9 +18,6 @@ constexpr double kPriorStrain = 0.005;  // of E_d, that outlines tell; what they
 constexpr double kPriorNear = 0.2;      // the same of distortion near cuts, as a part of all
 constexpr double kPriorFreed = 0.2;     // and of what holes cost that are opened, which is thought to go
 
-/// What it opens a hole for is more than what is near it.
-bool opens_hole(const CutPlace& place) { return place.freed > place.released; }
-
 }  // namespace
 
 bool has(const std::vector<CutPlace>& cuts, const CutPlace& place) {
@@ -37,7 +34,7 @@ bool has_any(const std::vector<std::vector<CutPlace>>& sets, const std::vector<C
 
 void Savings::learn(const CutPlace& place, double before, double less_strain, double foreseen, double gain) {
   const double saved = std::max(0.0, 1 - std::exp(-gain));
-  if (opens_hole(place)) {
+  if (place.opens_hole()) {
     freeable_ += place.freed / std::exp(before);
     freed_ += saved;
   } else if (less_strain > 0) {
@@ -47,7 +44,7 @@ void Savings::learn(const CutPlace& place, double before, double less_strain, do
     near_ += place.released / std::exp(before);
     relaxed_ += saved;
   }
-  if (foreseen > 0 && !opens_hole(place)) {
+  if (foreseen > 0 && !place.opens_hole()) {
     foreseen_ += foreseen;
     came_ += std::max(0.0, gain);
   }
@@ -62,8 +59,8 @@ void Savings::learn(const CutPlace& place, double before, double less_strain, do
 double Savings::foresee(const CutPlace& place, double less_strain, double before) const {
   const auto known = find(place);
   if (known != known_.end() && less_strain == 0) return known->gain;
-  const double near = opens_hole(place) ? (kPriorFreed + freed_) / (kPriorFreed + freeable_) * place.freed
-                                        : (kPriorNear * kLikelyShare + relaxed_) / (kPriorNear + near_) * place.released;
+  const double near = place.opens_hole() ? (kPriorFreed + freed_) / (kPriorFreed + freeable_) * place.freed
+                                         : (kPriorNear * kLikelyShare + relaxed_) / (kPriorNear + near_) * place.released;
   const double packed = (kPriorStrain + for_strain_) / (kPriorStrain + strain_) * std::max(0.0, less_strain);
   return -std::log(1 - std::min(kMostShare, (near + packed) / std::exp(before)));
 }

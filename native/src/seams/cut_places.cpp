@@ -135,7 +135,10 @@ std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int stra
     const auto place = [&](const Chord& chord) {
       return CutPlace{c, chord, loss_near(states[c], chord), freed_by(states[c], border, turns, chord)};
     };
-    for (const Chord& chord : has_holes ? states[c].cuts->ways_from_holes() : std::vector<Chord>()) out.push_back(place(chord));
+    for (const Chord& chord : has_holes ? states[c].cuts->ways_from_holes() : std::vector<Chord>()) {
+      CutPlace way = place(chord);
+      if (way.opens_hole() && static_cast<int>(out.size()) < straight) out.push_back(std::move(way));
+    }
     for (const Chord& chord : necks(border, kLeastPart * area_within(border), kNecks)) ranked.push_back(place(chord));
     // Of many charts, each with little of what is lost, a few in each.
     const int most = states.size() > kMany ? std::max(kWays, tips / 2) : c == charts.front() ? tips : 0;

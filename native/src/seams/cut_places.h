@@ -15,6 +15,9 @@ struct CutPlace {
   Chord chord;
   double released = 0;  ///< distortion that is near enough to relax
   double freed = 0;     ///< distortion, wherever it is, that is there because of the hole that the cut opens
+
+  /// That is more than what is near it.
+  bool opens_hole() const { return freed > released; }
 };
 
 /// Distortion that is pent up in a part of a chart.
@@ -30,10 +33,9 @@ struct ChartState {
   std::vector<Loss> losses;
 };
 
-/// The shortest ways from holes along edges and others across charts, best first, at most `straight` where there are not more
-/// holes: in turn by how short they are for what they cut off and by how much distortion is near them for their length; then at
-/// most `tips` ways to points of high curvature. Charts of `states` without cuts of their
-/// own (nullptr) are left alone.
+/// At most `straight` across charts: the shortest ways along edges that open holes, then, best first, in turn by how short they
+/// are for what they cut off and by how much distortion is near them for their length; then at most `tips` ways to points of high
+/// curvature. Charts of `states` without cuts of their own (nullptr) are left alone.
 std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int straight, int tips);
 
 }  // namespace atlas_refine
