@@ -51,7 +51,7 @@ TEST(CutPlaces, FromAHoleInWhatIsFlatItFreesNothing) {
 
 TEST(CutPlaces, OnceItIsOpenNoHoleIsLeft) {
   Whole tube(tube_as_ring(12, 3, 0.5));
-  ASSERT_TRUE(tube.cuts.add(tube.places().front().chord));
+  ASSERT_TRUE(tube.cuts.add(tube.cuts.ways_from_holes().front()));
   EXPECT_TRUE(tube.cuts.ways_from_holes().empty());
   for (const CutPlace& place : tube.places()) EXPECT_EQ(place.freed, 0);
 }
