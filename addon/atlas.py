@@ -12,7 +12,7 @@ from .bridge import cuts
 from .bridge import mesh as bridge
 from .bridge import parts as objects
 from .bridge.named import why_not_painted
-from .bridge.texture import find_canvases, of_another_shape
+from .bridge.texture import find_canvases, other_images
 from .core.atlas import stored_uvs
 from .core.cuts import plan_cut, seam_edges
 from .core.density import notes_on_unequal, too_small
@@ -93,12 +93,14 @@ class Atlas:
 
     def _notes_on_images(self, materials):
         texture = self.request.textures[0]
-        if self.options.atlases == "MATERIAL" or not self.options.takes_image(texture):
+        if self.options.atlases == "MATERIAL" or texture is None:
             return
         used = {materials[number] for part in self.parts for number in np.unique(part.materials[part.taken])}
-        others = of_another_shape(texture, used)
-        if others:
-            yield f"packed for {texture.name}; of another shape: {', '.join(others)}. By Material each has its own"
+        alike, of_another_shape = other_images(texture, used)
+        if of_another_shape and self.options.takes_image(texture):
+            yield f"packed for {texture.name}; of another shape: {', '.join(of_another_shape)}. By Material each has its own"
+        elif alike:
+            yield f"{texture.name} and {', '.join(alike)} share one atlas, so each is used in part only. By Material each has its own"
 
     def holds_unequal_densities(self):
         """Whether the run ended where it began, as the use was there, though charts have other densities than the one for all that was

@@ -69,7 +69,14 @@ class Defaults(unittest.TestCase):
         self.assertIn("Warning: Loose: packed for Skin; of another shape: Hair. By Material each has its own", told)
         numbers[:] = np.minimum(numbers, 1)
         obj.data.polygons.foreach_set("material_index", numbers)
-        self.assertNotIn("packed for", messages(bpy.ops.uv.atlas_refine, pe_bound=0.7))
+        told = messages(bpy.ops.uv.atlas_refine, pe_bound=0.7)
+        self.assertNotIn("packed for", told)
+        note = "Warning: Loose: Skin and Eyes share one atlas, so each is used in part only. By Material each has its own"
+        self.assertIn(note, told)
+        self.assertNotIn("share one atlas", messages(bpy.ops.uv.atlas_refine, pe_bound=0.65, atlases="MATERIAL"))
+        numbers[:] = 0
+        obj.data.polygons.foreach_set("material_index", numbers)
+        self.assertNotIn("share one atlas", messages(bpy.ops.uv.atlas_refine, pe_bound=0.6))
 
     def test_square_goes_by_the_texture_size(self):
         obj = add_mesh()

@@ -7,7 +7,7 @@ import time
 import unittest
 
 import bpy
-from support import MODULE, fresh_scene, messages, texture_share
+from support import MODULE, fresh_scene, get_uvs, messages, texture_share
 from test_equal_uvs import torn_edges
 
 WORST_RISE = 0.02  # of E_d
@@ -64,6 +64,17 @@ class Suzanne(unittest.TestCase):
             for unwrap in UNWRAPS:
                 with self.subTest(unwrap=unwrap, density=density):
                     self.check(levels, unwrap, density)
+
+    def test_what_was_asked_of_the_mesh_before_changes_nothing(self):
+        results = []
+        for asked in (False, True):
+            fresh_scene()
+            obj = add_suzanne(0, "Smart UV")
+            if asked and hasattr(obj.data, "calc_normals_split"):  # until 4.0, as exporters and drawing do
+                obj.data.calc_normals_split()
+            bpy.ops.uv.atlas_refine()
+            results.append(get_uvs(obj.data.uv_layers.active))
+        self.assertTrue((results[0] == results[1]).all())
 
     def test_as_she_comes(self):
         self.check_all(0)

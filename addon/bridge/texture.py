@@ -47,11 +47,13 @@ def _image_in_editor(context):
     return space.image if _has_size(space.image) else None
 
 
-def of_another_shape(texture, material_names):
-    """Names of the images that these materials read and whose shape is not the texture's."""
+def other_images(texture, material_names):
+    """Names of the images that these materials read and that are not the texture: ([of its shape], [of another])."""
     images = filter(None, (_image_of_material(_material_named(name)) for name in material_names))
+    others = {image.name: image.size[0] / image.size[1] for image in images if image.name != texture.name}
     shape = texture.width / texture.height
-    return sorted({image.name for image in images if abs(image.size[0] / image.size[1] - shape) > 1e-3 * shape})
+    alike = {name for name, own in others.items() if abs(own - shape) <= 1e-3 * shape}
+    return sorted(alike), sorted(others.keys() - alike)
 
 
 def _material_named(full_name):

@@ -140,7 +140,10 @@ def progress_bar(layout, fraction, text):
 
 
 def calc_loop_triangles(mesh):
-    """Until 4.0 they are there only once asked for."""
+    """Until 4.0 they are there only once asked for, and then divide quads by the faces' normals where these are known: as what is
+    drawn and exported is divided."""
+    if hasattr(mesh, "calc_normals"):  # until 4.0
+        mesh.calc_normals()
     if hasattr(mesh, "calc_loop_triangles"):
         mesh.calc_loop_triangles()
 
