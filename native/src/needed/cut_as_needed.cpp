@@ -226,11 +226,10 @@ SqueezedTrial found_by(Search& search) {
     keep_limit(search);
   else
     look_for_best(search);
-  SqueezedTrial& chosen = choose(search);
-  CutReport report = search.found.report(search.wish, chosen);
-  SqueezedTrial& out = moved && &chosen == &search.found.squeezed.front() ? *moved : chosen;
-  out.solution.cuts = std::move(report);
-  return std::move(out);
+  SqueezedTrial* chosen = &choose(search);
+  if (moved && chosen == &search.found.squeezed.front()) chosen = &search.found.squeezed.emplace_back(std::move(*moved));
+  chosen->solution.cuts = search.found.report(search.wish, *chosen);
+  return std::move(*chosen);
 }
 
 }  // namespace
