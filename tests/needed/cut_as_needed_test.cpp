@@ -99,24 +99,23 @@ TEST(CutAsNeeded, WhereRectanglesTakeFewerSeamsTheyAreTheResult) {
   EXPECT_NE(result.fallbacks[0].find("cut into rectangles"), std::string::npos);
 }
 
-/// Bowls of six sides and two rings around a pole, their UVs seen from above.
-Atlas bowls(int count) {
-  constexpr int kSides = 6, kRings = 3;
+/// Bowls of so many sides and rings around a pole, their UVs seen from above.
+Atlas bowls(int count, int sides = 6, int rings = 3) {
   std::vector<Atlas> parts;
   for (int n = 0; n < count; ++n) {
     std::vector<Vec3> positions = {{0, 0, 0}};
     std::vector<std::vector<int>> faces;
-    for (int r = 1; r <= kRings; ++r) {
-      const double tilt = 0.5 * std::numbers::pi * r / kRings;
-      for (int k = 0; k < kSides; ++k) {
-        const double angle = 2 * std::numbers::pi * k / kSides;
+    for (int r = 1; r <= rings; ++r) {
+      const double tilt = 0.5 * std::numbers::pi * r / rings;
+      for (int k = 0; k < sides; ++k) {
+        const double angle = 2 * std::numbers::pi * k / sides;
         positions.emplace_back(std::sin(tilt) * std::cos(angle), std::sin(tilt) * std::sin(angle), 1 - std::cos(tilt));
       }
     }
-    const auto at = [](int r, int k) { return r == 0 ? 0 : 1 + (r - 1) * kSides + k % kSides; };
-    for (int k = 0; k < kSides; ++k) {
+    const auto at = [sides](int r, int k) { return r == 0 ? 0 : 1 + (r - 1) * sides + k % sides; };
+    for (int k = 0; k < sides; ++k) {
       faces.push_back({at(0, 0), at(1, k), at(1, k + 1)});
-      for (int r = 1; r < kRings; ++r) faces.push_back({at(r, k), at(r + 1, k), at(r + 1, k + 1), at(r, k + 1)});
+      for (int r = 1; r < rings; ++r) faces.push_back({at(r, k), at(r + 1, k), at(r + 1, k + 1), at(r, k + 1)});
     }
     parts.push_back(flat_atlas(positions, faces));
     for (int c = 0; c < parts.back().corner_count(); ++c) {
@@ -126,6 +125,21 @@ Atlas bowls(int count) {
     }
   }
   return shapes::combine(parts);
+}
+
+TEST(CutAsNeeded, ABowlIsSlitAsFarAsTheBudgetAllows) {
+  const Atlas atlas = bowls(1, 16, 6);
+  RefineOptions options = needed();
+  options.seam_cost = 0;
+  double before = refine(atlas, {.relax = true}).after.distortion, way = 0;
+  for (const double budget : {0.4, 0.8, 1.2}) {
+    options.max_boundary_growth = budget;
+    const RefineResult result = refine_soundly(atlas, options);
+    EXPECT_GT(result.boundary_growth, way) << budget;
+    EXPECT_LT(result.after.distortion - 1, 0.75 * (before - 1)) << budget;
+    before = result.after.distortion;
+    way = result.boundary_growth;
+  }
 }
 
 TEST(CutAsNeeded, ManyEqualChartsAreCutTogether) {

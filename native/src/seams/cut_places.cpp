@@ -2,6 +2,7 @@
 #include "seams/cut_places.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -14,11 +15,13 @@
 namespace atlas_refine {
 namespace {
 
-constexpr std::size_t kCharts = 6;  // that lose most: only they are looked at, of many more
-constexpr int kNecks = 24;          // of each chart
-constexpr double kAround = 0.75;    // of a cut's length: what is so near it can relax
-constexpr std::size_t kMany = 8;    // charts
-constexpr int kWays = 2;            // to each point of high curvature, of the chart that loses most
+constexpr std::size_t kCharts = 6;         // that lose most: only they are looked at, of many more
+constexpr int kNecks = 24;                 // of each chart
+constexpr double kAround = 0.75;           // of a cut's length: what is so near it can relax
+constexpr std::size_t kMany = 8;           // charts
+constexpr std::array kParts = {0.3, 0.6};  // of such a way: the border of a bowl lies flat when it is slit a little
+constexpr double kLongWay = 0.1;           // of the border: others are cheap enough as a whole
+constexpr int kWays = 2;                   // to each point of high curvature, of the chart that loses most
 
 double lost(const ChartState& state) {
   return std::accumulate(state.losses.begin(), state.losses.end(), 0.0, [](double sum, const Loss& l) { return sum + l.amount; });
@@ -33,6 +36,14 @@ std::vector<int> charts_by_loss(const std::vector<ChartState>& states) {
   std::stable_sort(out.begin(), out.end(), [&](int a, int b) { return lost(states[a]) > lost(states[b]); });
   out.resize(std::min(out.size(), std::max(kCharts, states.size() / kMany)));
   return out;
+}
+
+double length_of(const Border& border) {
+  double sum = 0;
+  for (const std::vector<Vec2>& loop : border.at) {
+    for (std::size_t k = 0; k < loop.size(); ++k) sum += (loop[(k + 1) % loop.size()] - loop[k]).norm();
+  }
+  return sum;
 }
 
 double area_within(const Border& border) {
@@ -94,8 +105,17 @@ std::vector<char> near_border(const ChartState& state, const Border& border) {
   return out;
 }
 
-/// Ways from the border to points that would be scaled much, were the chart laid flat as it is cut. What a way there saves grows
-/// with the square of the scale's logarithm and of the distance, which it costs.
+/// The vertex inside that is nearest to a point; there must be one.
+int nearest_inside(const std::vector<Vec2>& uvs, const std::vector<char>& at_border, const Vec2& point) {
+  int best = -1;
+  for (int v = 0; v < static_cast<int>(at_border.size()); ++v) {
+    if (!at_border[v] && (best < 0 || (uvs[v] - point).squaredNorm() < (uvs[best] - point).squaredNorm())) best = v;
+  }
+  return best;
+}
+
+/// Ways from the border to points that would be scaled much, were the chart laid flat as it is cut; then parts of these ways.
+/// What a way there saves grows with the square of the scale's logarithm and of the distance, which it costs.
 std::vector<CutPlace> ways_to_tips(const ChartState& state, int chart, const Border& border, int most) {
   const std::vector<char> at_border = near_border(state, border);
   const std::vector<double> scales = ScaleForecast(*state.chart).logarithms(at_border);
@@ -109,15 +129,25 @@ std::vector<CutPlace> ways_to_tips(const ChartState& state, int chart, const Bor
   std::vector<double> worth(scales.size(), 0);
   for (std::size_t v = 0; v < scales.size(); ++v) worth[v] = at_border[v] ? 0 : scales[v] * scales[v] * away[v];
   const std::vector<Vec2>& uvs = mesh.uvs;
-  std::vector<CutPlace> out;
+  std::vector<CutPlace> out, parts;
   while (static_cast<int>(out.size()) + kWays <= most) {
     const int tip = static_cast<int>(std::max_element(worth.begin(), worth.end()) - worth.begin());
     if (!(worth[tip] > 0)) break;
-    for (const Chord& chord : chords_from(border, tip, uvs[tip], kWays)) out.push_back({chart, chord, loss_near(state, chord)});
+    for (const Chord& chord : chords_from(border, tip, uvs[tip], kWays)) {
+      out.push_back({chart, chord, loss_near(state, chord)});
+      if (chord.length() < kLongWay * length_of(border)) continue;
+      for (const double part : kParts) {
+        Chord shorter = chord;
+        shorter.ends[1] = nearest_inside(uvs, at_border, chord.at[0] + part * (chord.at[1] - chord.at[0]));
+        shorter.at[1] = uvs[shorter.ends[1]];
+        if (shorter.ends[1] != tip) parts.push_back({chart, shorter, loss_near(state, shorter)});
+      }
+    }
     for (std::size_t v = 0; v < worth.size(); ++v) {
       if ((uvs[v] - uvs[tip]).norm() < away[tip]) worth[v] = 0;
     }
   }
+  out.insert(out.end(), parts.begin(), parts.end());
   return out;
 }
 
