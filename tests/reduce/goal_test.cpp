@@ -85,6 +85,18 @@ TEST(Goal, ChartsWhoseUvsHaveNoShapeAreToHaveTheMeanDensity) {
   }
 }
 
+TEST(Goal, AStrayVertexTellsNothingOfTheDensityButAMapThatVariesDoes) {
+  std::vector<Chart> charts = of_two_scales();
+  const auto alone = wanted_density(charts, Density::Keep);
+  std::vector<Chart> stray = charts;
+  stray[1].uvs[stray[1].boundary_loops[0][0]] += Vec2(30, 0);
+  const auto strayed = wanted_density(stray, Density::Keep);
+  EXPECT_NEAR(strayed[1] / strayed[0], alone[1] / alone[0], 0.1 * alone[1] / alone[0]);
+  for (Vec2& uv : charts[1].uvs) uv.x() = std::max(uv.x(), 20 * uv.x() - 19 * 0.7 * uv_box({of_two_scales()[1]}).max.x());
+  const auto varied = wanted_density(charts, Density::Keep);
+  EXPECT_NEAR(varied[1] / varied[0], texel_density(charts[1]) / texel_density(charts[0]), 1e-9);
+}
+
 TEST(Goal, TheInputAsReferenceLeavesTheDensityToItsOption) {
   std::vector<Chart> charts = of_two_scales();
   for (Vec2& uv : charts[0].uvs) uv.x() *= 1.5;

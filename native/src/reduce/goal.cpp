@@ -18,11 +18,11 @@ double usable_density(const Chart& chart) {
 }
 
 /// 0 where the UVs tell none: most of them are flipped or without area, or what is left has no shape, so that its area is that of
-/// something else. Triangles that a stray vertex has drawn out do not count.
+/// something else. Triangles that a stray vertex has drawn out do not count; where there are many, that is how the map is.
 double density_told_by_uvs(const Chart& chart) {
   if (mostly_bad(chart, bad_triangles(chart)) || !(sums_of_good(chart).best_energy() < kLine)) return 0;
+  constexpr double kFew = 0.1;  // of the surface
   const std::vector<char> out_of_scale = triangles_out_of_scale(chart);
-  if (mostly_bad(chart, out_of_scale)) return usable_density(chart);
   double in_texture = 0, on_surface = 0;
   for (std::size_t t = 0; t < out_of_scale.size(); ++t) {
     if (out_of_scale[t]) continue;
@@ -30,7 +30,7 @@ double density_told_by_uvs(const Chart& chart) {
     in_texture += 0.5 * doubled_area(chart.uvs[a], chart.uvs[b], chart.uvs[c]);
     on_surface += chart.surface[t].area;
   }
-  return std::sqrt(in_texture / on_surface);
+  return on_surface < (1 - kFew) * chart.surface.area() ? usable_density(chart) : std::sqrt(in_texture / on_surface);
 }
 
 std::vector<Vec2> input_uvs(const Piece& piece, const std::vector<Chart>& input) {
