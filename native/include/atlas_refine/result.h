@@ -151,7 +151,7 @@ struct CutMesh {
   std::vector<std::array<int, 3>> corner_sources;
   std::vector<Vec3> corner_weights;           ///< >= 0, sum 1
   std::vector<NewVertex> new_vertices;        ///< vertex k of them has the index (input vertices + k)
-  std::vector<std::array<int, 2>> new_seams;  ///< edges (vertex pairs) that cuts run along, or charts were parted along
+  std::vector<std::array<int, 2>> new_seams;  ///< edges (vertex pairs) that cuts run, or charts were parted, along; each once
 };
 
 struct RefineResult {

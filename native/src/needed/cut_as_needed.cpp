@@ -28,13 +28,12 @@ constexpr double kNearlyKept = 0.2;  // what came so near may keep it in another
 
 /// Charts that need not be bent for the bound may still lose what the limit is missed by, or what cuts would save: that takes no
 /// seam. Several charts are packed by chance: another packing may keep a limit of E_d that the first nearly kept.
-SqueezedTrial without_cuts(CutTrials& trials, const Wish& wish, SqueezedTrial moved, const ProgressRange& range) {
+SqueezedTrial without_cuts(CutTrials& trials, const Wish& wish, SqueezedTrial out, const ProgressRange& range) {
   const auto nearly_kept = [&](const Trial& trial) {
     const std::optional<double>& most = wish.options.max_distortion;
     return most && trials.has_several_charts() && !wish.is_enough(trial) && trial.distortion < *most + kByChance;
   };
   const auto part = [&](int k) { return range.part(k / (kPackings + 1.0), (k + 1) / (kPackings + 1.0)); };
-  SqueezedTrial out = std::move(moved);
   if (!wish.is_enough(out.trial) && out.solution.intervention == Intervention::Moved && trials.relaxes()) {
     SqueezedTrial relaxed = trials.without_cuts(part(0), {.relax = true});
     if (relaxed.trial.distortion < out.trial.distortion) out = std::move(relaxed);
@@ -215,11 +214,12 @@ SqueezedTrial& choose(Search& search) {
 
 SqueezedTrial found_by(Search& search) {
   const RefineOptions& options = search.options;
-  std::optional<SqueezedTrial> moved = search.trials.without_cuts(search.step());
-  const bool is_moved = moved->solution.intervention == Intervention::Moved;
-  search.found.squeezed.push_back(without_cuts(search.trials, search.wish, *moved, search.step()));
+  SqueezedTrial whole = search.trials.without_cuts(search.step());
   // Where no cut pays charts are bent for the bound only.
-  if (!is_moved || search.wish.has_limit() || options.trade_off || options.seam_cost == 0) moved.reset();
+  std::optional<SqueezedTrial> moved;
+  const bool pays_for_seams = !search.wish.has_limit() && !options.trade_off && options.seam_cost > 0;
+  if (pays_for_seams && whole.solution.intervention == Intervention::Moved) moved = whole;
+  search.found.squeezed.push_back(without_cuts(search.trials, search.wish, std::move(whole), search.step()));
   if (options.trade_off)
     look_for_all(search);
   else if (search.wish.has_limit())

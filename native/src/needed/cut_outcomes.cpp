@@ -8,12 +8,6 @@
 #include <utility>
 
 namespace atlas_refine {
-namespace {
-
-constexpr double kAsLong = 1.02;  // times the boundary: with no more, what is chosen is listed instead of what is as good
-
-}  // namespace
-
 double loss(const Trial& trial) { return std::min(trial.distortion, kHopeless); }
 
 double excess(double distortion) { return std::log(std::clamp(distortion - 1, kLeastExcess, kHopeless - 1)); }
@@ -55,7 +49,7 @@ std::vector<SqueezedTrial*> Outcomes::front(const SqueezedTrial& chosen) {
     const auto& [distortion, growth] = std::tie(outcome->trial.distortion, outcome->trial.growth);
     const bool is_less = distortion < least - kSettled;
     if (!is_less && (outcome != &chosen || !std::isfinite(distortion))) continue;
-    const bool is_instead = !is_less && growth <= kAsLong * out.back()->trial.growth && distortion <= least + kSettled;
+    const bool is_instead = !is_less && growth <= kAsGood * out.back()->trial.growth && distortion <= least + kSettled;
     if (is_instead) out.pop_back();
     out.push_back(outcome);
     if (is_less) least = distortion;

@@ -12,7 +12,7 @@ namespace atlas_refine {
 inline constexpr double kShortest = 0.02;  ///< growth added to each cut's where rates are compared: else the shortest always win
 inline constexpr double kHopeless = 10;    ///< E_d that counts where the bound does not hold
 inline constexpr double kLeastExcess = 1e-6;  ///< of E_d above 1
-inline constexpr double kAsGood = 1.02;       ///< times the boundary: what was found first, or symmetric cuts, may have more
+inline constexpr double kAsGood = 1.02;       ///< times the boundary: what was found first, chosen or symmetric may have more
 inline constexpr double kSettled = 1e-4;      ///< of E_d: less is no gain
 
 /// E_d, or what counts where the bound does not hold.

@@ -219,14 +219,14 @@ CutSet* CutPath::with_fewer(const CutSet& set, int less) {
 /// Among many charts the best cut of each of those that lose most, where several promise as much: else every one of a hundred
 /// charts takes a step of its own. They stay in the layout, so that what they save adds up.
 void CutPath::add_together(const Trial& present, std::size_t first) {
-  constexpr double kAsGood = 0.5;  // of the best rate
+  constexpr double kAlike = 0.5;  // of the best rate
   std::map<int, const CutSet*> best;
   for (std::size_t k = first; k < sets_.size(); ++k) {
     const CutSet*& own = best[sets_[k].trial.cuts.back().chart];
     if (!own || rate_of(sets_[k]) > rate_of(*own)) own = &sets_[k];
   }
   double least = 0;
-  for (const auto& [chart, set] : best) least = std::max(least, kAsGood * rate_of(*set));
+  for (const auto& [chart, set] : best) least = std::max(least, kAlike * rate_of(*set));
   std::vector<const CutSet*> good;
   for (const auto& [chart, set] : best) {
     if (rate_of(*set) >= least && set->gain >= kLeastGain) good.push_back(set);

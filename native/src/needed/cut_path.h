@@ -18,14 +18,14 @@ struct CutSet {
   const SqueezedTrial* present = nullptr;  ///< that set, where it is one cut more
   double less_strain = 0;                  ///< than that set has
   double price = 1;                        ///< of the edges of its cuts, the mean for each length
-
-  double cost() const { return price * trial.growth; }
-  int together = 1;  ///< so many cuts more than that set has
+  int together = 1;                        ///< so many cuts more than that set has
   bool is_forecast = false;
   double excess = 0;  ///< as it is forecast
   bool is_out = false;
   const SqueezedTrial* squeezed = nullptr;
   bool fails = false;  ///< squeezed, it does not hold the bound
+
+  double cost() const { return price * trial.growth; }
 };
 
 /// The path knows neither limits nor budgets: they only say where it ends, and which of its sets is taken. What it has passed it

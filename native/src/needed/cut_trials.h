@@ -15,8 +15,6 @@
 
 namespace atlas_refine {
 
-inline constexpr std::size_t kFewCharts = 8;  ///< of these all pieces are placed anew as well
-
 struct SqueezedTrial;
 
 /// The outcome of some cuts.

@@ -301,7 +301,7 @@ double ChartCuts::length() const {
 
 double ChartCuts::cost() const {
   double sum = 0;
-  for (const Side& s : cut_sides()) sum += length_on_surface(s) * (prices_.empty() ? 1 : prices_[s.triangle][s.side]);
+  for (const Side& s : cut_sides()) sum += price_on_surface(s);
   return sum;
 }
 

@@ -18,7 +18,6 @@ namespace {
 constexpr std::size_t kCharts = 6;         // that lose most: only they are looked at, of many more
 constexpr int kNecks = 24;                 // of each chart
 constexpr double kAround = 0.75;           // of a cut's length: what is so near it can relax
-constexpr std::size_t kMany = 8;           // charts
 constexpr std::array kParts = {0.3, 0.6};  // of such a way: the border of a bowl lies flat when it is slit a little
 constexpr double kLongWay = 0.1;           // of the border: others are cheap enough as a whole
 constexpr int kWays = 2;                   // to each point of high curvature, of the chart that loses most
@@ -34,7 +33,7 @@ std::vector<int> charts_by_loss(const std::vector<ChartState>& states) {
     if (states[c].cuts) out.push_back(static_cast<int>(c));
   }
   std::stable_sort(out.begin(), out.end(), [&](int a, int b) { return lost(states[a]) > lost(states[b]); });
-  out.resize(std::min(out.size(), std::max(kCharts, states.size() / kMany)));
+  out.resize(std::min(out.size(), std::max(kCharts, states.size() / kFewCharts)));
   return out;
 }
 
@@ -171,7 +170,7 @@ std::vector<CutPlace> cut_places(const std::vector<ChartState>& states, int stra
     }
     for (const Chord& chord : necks(border, kLeastPart * area_within(border), kNecks)) ranked.push_back(place(chord));
     // Of many charts, each with little of what is lost, a few in each.
-    const int most = states.size() > kMany ? std::max(kWays, tips / 2) : c == charts.front() ? tips : 0;
+    const int most = states.size() > kFewCharts ? std::max(kWays, tips / 2) : c == charts.front() ? tips : 0;
     for (CutPlace& way : ways_to_tips(states[c], c, border, most)) ways.push_back(std::move(way));
   }
   std::vector<CutPlace> by_loss = ranked;

@@ -9,6 +9,10 @@ namespace atlas_refine {
 
 inline constexpr double kLeastPart = 0.02;  ///< of its chart's area: less is not worth a seam
 
+/// Of so few all pieces are placed anew with every cut, and the one that loses most is looked at closely; of more pieces stay
+/// where they lie, and each has little of what is lost.
+inline constexpr std::size_t kFewCharts = 8;
+
 /// A cut that may pay.
 struct CutPlace {
   int chart;
